@@ -1,0 +1,18 @@
+# Writes OUT: a C++ file with the text of every file of FILES, found by its name. Called by the build for kernels/.
+set(text "#include \"opencl/kernel_sources.h\"\n\nnamespace spectrad {\n\nstd::span<const KernelSource> kernelSources() {\n    static const KernelSource sources[] = {\n")
+foreach(file ${FILES})
+    get_filename_component(name ${file} NAME)
+    file(READ ${file} body)
+    # A string literal may hold 64 KiB at most in strict C++: cut at a safe size.
+    string(LENGTH "${body}" left)
+    string(APPEND text "        {\"${name}\",")
+    set(at 0)
+    while(at LESS left)
+        string(SUBSTRING "${body}" ${at} 8000 piece)
+        string(APPEND text "\nR\"~~~~(${piece})~~~~\"")
+        math(EXPR at "${at} + 8000")
+    endwhile()
+    string(APPEND text "},\n")
+endforeach()
+string(APPEND text "    };\n    return sources;\n}\n\n}  // namespace spectrad\n")
+file(WRITE ${OUT} "${text}")

@@ -1,0 +1,100 @@
+#include "base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace spectrad {
+
+static constexpr std::string_view white = " \t\r\n\f\v";
+
+std::string_view trimmed(std::string_view text) {
+    const size_t first = text.find_first_not_of(white);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(white) - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> pieces;
+    while (true) {
+        const size_t at = text.find(separator);
+        pieces.push_back(trimmed(text.substr(0, at)));
+        if (at == std::string_view::npos) return pieces;
+        text.remove_prefix(at + 1);
+    }
+}
+
+std::vector<std::string_view> words(std::string_view text) {
+    std::vector<std::string_view> result;
+    for (size_t from = text.find_first_not_of(white); from != std::string_view::npos;) {
+        const size_t to = std::min(text.find_first_of(white, from), text.size());
+        result.push_back(text.substr(from, to - from));
+        from = text.find_first_not_of(white, to);
+    }
+    return result;
+}
+
+bool startsWith(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
+
+std::optional<double> parseDouble(std::string_view text) {
+    text = trimmed(text);
+    if (!text.empty() && text[0] == '+') text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    // A number too small for double reads as "out of range" too: what is below the range is 0, what is above is no number.
+    if (error == std::errc::result_out_of_range && end == text.data() + text.size() && text.find("e-") != std::string_view::npos)
+        return 0.0;
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+std::optional<long long> parseInteger(std::string_view text) {
+    text = trimmed(text);
+    long long value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || text.empty()) return std::nullopt;
+    return value;
+}
+
+std::string shortest(double value) { return fmt::format("{}", value); }
+
+std::string rounded(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
+
+static size_t editDistance(std::string_view a, std::string_view b) {
+    std::vector<size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
+    for (size_t j = 0; j <= b.size(); ++j) last[j] = j;
+    for (size_t i = 1; i <= a.size(); ++i) {
+        now[0] = i;
+        for (size_t j = 1; j <= b.size(); ++j) {
+            now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) now[j] = std::min(now[j], before[j - 2] + 1);
+        }
+        before.swap(last);
+        last.swap(now);
+    }
+    return last[b.size()];
+}
+
+std::optional<std::string> nearest(std::string_view name, std::span<const std::string> known) {
+    if (name.size() > 64) return std::nullopt;
+    size_t best = std::max<size_t>(1, name.size() / 3) + 1;
+    std::optional<std::string> found;
+    for (const std::string& candidate : known) {
+        if (candidate.size() > name.size() + best || name.size() > candidate.size() + best) continue;
+        const size_t distance = editDistance(name, candidate);
+        if (distance < best) {
+            best = distance;
+            found = candidate;
+        }
+    }
+    return found;
+}
+
+std::string didYouMean(std::string_view name, std::span<const std::string> known) {
+    const auto found = nearest(name, known);
+    return found ? " (did you mean '" + *found + "'?)" : std::string();
+}
+
+}  // namespace spectrad

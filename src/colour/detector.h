@@ -1,0 +1,37 @@
+// Detectors: an eye, a camera, anything linear in the spectrum. Channels are any number.
+#pragma once
+
+#include "spectrum/resolver.h"
+#include "spectrum/wavelengths.h"
+
+#include <string>
+#include <vector>
+
+namespace spectrad {
+
+/// Channel value = scale · ∫ L(λ) response(λ) dλ, L in W·m⁻²·sr⁻¹·nm⁻¹.
+struct Detector {
+    std::string name;                   ///< as the user named it
+    std::vector<std::string> channels;  ///< "X" "Y" "Z", "L" "M" "S", "R" "G" "B", …
+    std::vector<Curve> response;        ///< one per channel, zero outside their range
+    double scale = 1;                   ///< 683.002 lm/W for colour matching functions, so that Y is in cd/m²; else 1
+    bool tristimulus = false;           ///< channels are X Y Z
+
+    [[nodiscard]] size_t size() const { return response.size(); }
+};
+
+inline constexpr double luminousEfficacy = 683.002;  ///< K_m, lm/W (CIE 2006; FORMAT: Amounts)
+
+/// A library name ("observers/cie1931-2", "cie1931-2" too), or a file of the user's; throws InputError.
+[[nodiscard]] Detector detectorFor(const std::string& text, const SpectrumResolver& resolver, const SourceLocation& where);
+
+/// Weights on a cube's bands, scale included: channel c = Σ_j weights[c][j] · L_j (see detectorWeights).
+struct DetectorWeights {
+    std::vector<std::vector<double>> weights;
+};
+[[nodiscard]] DetectorWeights weightsOn(const Wavelengths& grid, const Detector& detector);
+
+/// Exact channels of a product of curves (light × material …), no bands in between.
+[[nodiscard]] std::vector<double> respond(const Detector& detector, std::span<const Curve* const> product);
+
+}  // namespace spectrad

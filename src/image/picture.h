@@ -1,0 +1,26 @@
+// Pictures for people: 8- and 16-bit PNG, and float EXR of a detector's own channels.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace spectrad {
+
+struct Picture8 {
+    int width = 0, height = 0, channels = 3;  ///< 1 grey, 3 RGB, 4 RGBA
+    std::vector<std::uint8_t> pixels;         ///< interleaved, row 0 on top
+};
+
+/// Whole or not at all; `text` becomes tEXt chunks. Marks RGB pictures as sRGB unless `srgb` is false.
+void writePng(const std::filesystem::path& target, const Picture8& picture, const std::map<std::string, std::string>& text = {},
+              bool srgb = true);
+[[nodiscard]] Picture8 readPng(const std::filesystem::path& path);
+
+/// Float channels, planes[channel][y * width + x], with string attributes.
+void writeChannelsExr(const std::filesystem::path& target, int width, int height, const std::vector<std::string>& names,
+                      const std::vector<std::vector<float>>& planes, const std::map<std::string, std::string>& attributes);
+
+}  // namespace spectrad

@@ -1,0 +1,188 @@
+// The scene graph as plain data: what the XML or a foreign file says, checked, spectra resolved, lengths in metres; nothing
+// of cameras' pixels, devices or bands' products yet. Indices refer to the vectors of Scene.
+#pragma once
+
+#include "base/error.h"
+#include "base/vec.h"
+#include "scene/mesh.h"
+#include "scene/shapes.h"
+#include "spectrum/spectrum.h"
+#include "spectrum/wavelengths.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace spectrad {
+
+using Index = std::uint32_t;
+
+// ---- amounts -------------------------------------------------------------------------------------------------------
+
+enum class AmountUnit {
+    candela, wattPerSteradian,                           // intensity
+    lumen, watt,                                         // power
+    lux, wattPerSquareMetre,                             // illuminance, irradiance
+    candelaPerSquareMetre, wattPerSquareMetreSteradian,  // luminance, radiance
+};
+[[nodiscard]] bool isPhotometric(AmountUnit unit);
+
+/// "800 cd", "100 W/m2 over 400:700".
+struct Amount {
+    AmountUnit unit = AmountUnit::candela;
+    double value = 0;
+    std::optional<std::pair<double, double>> over;  ///< nm: integrate the spectrum over this range (constant spectra need one)
+};
+
+/// A source's spectrum: shape × amount, or absolute × scale (docs/format.md, "Amounts").
+struct Emitter {
+    Spectrum spectrum;
+    std::optional<Amount> amount;  ///< nothing: the spectrum counts as it stands, in the light's own unit per nm
+    double scale = 1;
+    SourceLocation where;
+};
+
+// ---- materials -----------------------------------------------------------------------------------------------------
+
+struct TextureUse {
+    std::string source;  ///< file name, or "pass:NAME"
+    SourceLocation where;
+};
+
+struct Diffuse {
+    std::optional<Spectrum> reflectance;  ///< exactly one of reflectance, texture
+    std::optional<TextureUse> texture;
+    double roughnessDegrees = 0;  ///< Oren–Nayar's σ; 0 is Lambert
+};
+/// Dielectric coat; GGX alpha = roughness².
+struct Gloss {
+    Spectrum ior;
+    double roughness = 0;
+};
+struct Specular {
+    Spectrum reflectance;  ///< at normal incidence
+    double roughness = 0;
+};
+struct Conductor {
+    Spectrum ior;  ///< two curves, n and k
+    double roughness = 0;
+    bool schlick = false;
+};
+struct Fluorescence {
+    std::optional<Spectrum> excitation, emission;
+    bool emissionInPhotons = false, antiStokes = false;
+    double yield = 1, strength = 1;
+    std::string matrixFile;  ///< instead of the three above
+    bool diagonalNone = false;
+    SourceLocation where;
+};
+
+struct Material {
+    std::string name;
+    SourceLocation where;
+    std::optional<Diffuse> diffuse;
+    std::optional<Gloss> gloss;
+    std::optional<Specular> specular;
+    std::optional<Conductor> conductor;
+    std::vector<Fluorescence> fluorescence;
+    std::optional<Emitter> emission;
+};
+
+// ---- graph ---------------------------------------------------------------------------------------------------------
+
+struct ShapeUse {
+    Shape shape;
+    Index material = 0;
+};
+/// A mesh whose triangles all wear one material; a file of several parts is several of these.
+struct MeshUse {
+    std::shared_ptr<const Mesh> mesh;  ///< normals as asked already
+    Index material = 0;
+};
+
+struct Node {
+    std::string name;  ///< may be empty
+    SourceLocation where;
+    Affine local;  ///< to the parent's space; lengths in metres
+    std::vector<Index> children;
+    std::vector<ShapeUse> shapes;
+    std::vector<MeshUse> meshes;
+    std::vector<Index> lights, cameras;
+    std::optional<Index> instanceOf;  ///< shows that node's content (not its transform) under `local`
+};
+
+enum class LightType { point, spot, directional, ambient };
+struct Light {
+    std::string name;
+    LightType type = LightType::point;
+    Emitter emitter;
+    Vec3 position;                      ///< point, spot; in the node's space, metres
+    Vec3 direction{0, -1, 0};           ///< spot, directional: where the light goes, unit vector in the node's space
+    double angle = 30;                  ///< spot: full opening angle of the cone, degrees
+    double blend = 0;                   ///< spot: share of the cone's angle over which it fades out, 0…1
+    SourceLocation where;
+};
+
+struct Camera {
+    std::string name;
+    bool orthographic = false;
+    double fovDegrees = 40;  ///< vertical
+    double viewHeight = 1;   ///< orthographic, metres
+    Affine toNode;           ///< camera space (looks down −z, y up) to the node's space, rigid
+    int width = 1280, height = 720;  ///< pixels
+    SourceLocation where;
+};
+
+struct DetectorUse {
+    std::string name, observer;
+    SourceLocation where;
+};
+
+enum class PassKind { radiance, reflectance, transmittance, irradiance };
+struct Pass {
+    std::string name;
+    Index camera = 0;
+    std::optional<Index> of;  ///< node
+    std::optional<std::pair<int, int>> size;
+    std::optional<int> samples;
+    std::optional<Wavelengths> wavelengths;
+    PassKind as = PassKind::radiance;
+    std::string save;  ///< file to write as well; may be empty
+    SourceLocation where;
+};
+
+struct Scene {
+    std::string file;              ///< as the user named it
+    std::string sha256;            ///< of the scene file and every file it read, in order of reading
+    std::vector<std::string> filesRead;
+    Wavelengths wavelengths;
+    double metresPerUnit = 1;
+    std::vector<Material> materials;  ///< [0] is the default: grey, reflectance 0.5
+    std::vector<Node> nodes;          ///< [0] is the root
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+    std::vector<DetectorUse> detectors;
+    std::vector<Pass> passes;
+    std::optional<Emitter> background;
+};
+
+/// A light's, camera's or node content's place in the world; instances make one per occurrence.
+struct Placed {
+    Index index;
+    Affine toWorld;
+};
+/// Everything below `root` (without an argument: the whole scene), in document order, instances expanded; without recursion.
+struct FlatScene {
+    struct Object {
+        const Node* node;
+        Affine toWorld;
+    };
+    std::vector<Object> objects;  ///< nodes with shapes or meshes
+    std::vector<Placed> lights;
+    std::vector<Placed> cameras;
+};
+[[nodiscard]] FlatScene flatten(const Scene& scene, std::optional<Index> root = std::nullopt);
+
+}  // namespace spectrad
