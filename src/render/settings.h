@@ -1,0 +1,34 @@
+// What a render is asked for beyond the scene, and what it reports.
+#pragma once
+
+#include "spectrum/wavelengths.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace spectrad {
+
+struct RenderSettings {
+    std::optional<Wavelengths> wavelengths;       ///< instead of the scene's
+    std::optional<Projection> projection;         ///< instead of the wavelengths' own
+    std::optional<std::pair<int, int>> size;      ///< width, height in pixels
+    std::optional<int> samples;                   ///< per pixel, 1…64; 16 if nobody says
+    std::string camera, pass;                     ///< names; empty: the scene's choice (docs/format.md, "Passes")
+    std::uint64_t stripBytes = 0;                 ///< device memory a strip may take; 0: chosen from the device
+};
+
+/// Rows of the finished image, top to bottom, without gaps: bands[(row * bands + band) * width + x] in
+/// W·m⁻²·sr⁻¹·nm⁻¹ and a linear Rec.709 preview[(row * 3 + channel) * width + x]. The memory is the renderer's.
+using StripSink = std::function<void(int firstRow, int rows, const float* bands, const float* preview)>;
+/// Share done, 0…1.
+using Progress = std::function<void(double)>;
+
+struct RenderTimes {
+    double build = 0, render = 0;  ///< s: compiling kernels; everything on the device
+};
+
+}  // namespace spectrad
