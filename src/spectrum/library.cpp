@@ -60,14 +60,14 @@ void readRange(const std::string& text, LibraryEntry& entry) {
     const auto count = words(pieces.back());
     if (pieces.size() == 3 && ends.size() == 2 && ends[1] == "nm" && count.size() == 2 &&
         count[1] == "samples") {
-        const size_t dash = ends[0].find('-');
-        const auto from = parseDouble(ends[0].substr(0, dash));
-        const auto to = dash == std::string_view::npos ? std::nullopt : parseDouble(ends[0].substr(dash + 1));
-        const auto samples = parseInteger(count[0]);
-        if (from && to && samples && *from > 0 && *from <= *to && *samples > 0) {
-            entry.fromNm = *from;
-            entry.toNm = *to;
-            entry.samples = static_cast<size_t>(*samples);
+        const auto limits = split(ends[0], '-');
+        const double from = parseDouble(limits.front()).value_or(0);
+        const double to = parseDouble(limits.back()).value_or(0);
+        const long long samples = parseInteger(count[0]).value_or(0);
+        if (limits.size() == 2 && from > 0 && from <= to && samples > 0) {
+            entry.fromNm = from;
+            entry.toNm = to;
+            entry.samples = static_cast<size_t>(samples);
             return;
         }
     }
