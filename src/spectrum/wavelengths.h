@@ -8,7 +8,8 @@
 
 namespace spectrad {
 
-/// How a curve becomes a band value: average under a hat (a triangular slit function), under a box, or the value there.
+/// How a curve becomes a band value: average under a hat (a triangular slit function), under a box, or the
+/// value there.
 enum class Projection { slit, box, point };
 
 [[nodiscard]] std::string_view name(Projection projection);
@@ -24,14 +25,15 @@ struct Wavelengths {
     friend bool operator==(const Wavelengths&, const Wavelengths&) = default;
 };
 
-/// "380:780:5" or "400,405.2,410" (also blanks between). Throws InputError at `where` for anything else: not ascending,
-/// not positive, not finite, more than 10 000.
+/// "380:780:5" or "400,405.2,410" (also blanks between). Throws InputError at `where` for anything else: not
+/// ascending, not positive, not finite, more than 10 000.
 [[nodiscard]] Wavelengths parseWavelengths(std::string_view text, const SourceLocation& where);
 /// from, from+step, … up to `to` (reached when within 1e-9 of a step). Throws as above.
-[[nodiscard]] Wavelengths regularWavelengths(double from, double to, double step, const SourceLocation& where);
+[[nodiscard]] Wavelengths regularWavelengths(double from, double to, double step,
+                                             const SourceLocation& where);
 
-/// The weight function of one band: linear from (from, atFrom) over the peak at (nm, 1) to (to, atTo). A hat has 0 at its
-/// far ends, a box 1. One-sided bands have from == nm or nm == to.
+/// The weight function of one band: linear from (from, atFrom) over the peak at (nm, 1) to (to, atTo). A hat
+/// has 0 at its far ends, a box 1. One-sided bands have from == nm or nm == to.
 struct Band {
     double from, nm, to;
     double atFrom, atTo;
