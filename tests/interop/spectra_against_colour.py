@@ -127,10 +127,11 @@ def main():
         warnings.simplefilter("ignore")
         tables, wrong_tables = compare_tables(folder)
         colours, wrong_colours = compare_colours(folder)
-    for line in wrong_tables + wrong_colours:
+    wrong = wrong_tables + wrong_colours
+    for line in wrong:
         print(line)
-    print(f"colour-science {colour.__version__}: {tables} tables and {colours} colours, {len(wrong_tables + wrong_colours)} differ")
-    return 1 if wrong_tables or wrong_colours else 0
+    print(f"colour-science {colour.__version__}: {tables} tables and {colours} colours, {len(wrong)} differ")
+    return 1 if wrong else 0
 
 
 if __name__ == "__main__":
