@@ -1,10 +1,9 @@
-// Foreign models through Assimp: meshes, node hierarchy, cameras, lights, materials, in plain form. The import runs in a
-// child process, so that a file that crashes or hangs Assimp costs one error line.
+// Foreign models through Assimp: meshes, node hierarchy, cameras, lights, materials, in plain form. The
+// import runs in a child process, so that a file that crashes or hangs Assimp costs one error line.
 #pragma once
 
-#include "scene/mesh.h"
-
 #include "base/error.h"
+#include "scene/mesh.h"
 
 #include <array>
 #include <filesystem>
@@ -18,24 +17,25 @@ namespace spectrad {
 struct ImportedMaterial {
     std::string name;
     std::array<double, 3> diffuse{0.5, 0.5, 0.5};  ///< linear sRGB reflectance, 0…1
+    std::optional<std::array<double, 3>> metal;    ///< reflectance at normal incidence; takes diffuse's place
     std::array<double, 3> emissive{0, 0, 0};       ///< linear sRGB, ≥ 0
     std::optional<double> ior;                     ///< a coat, where the file states a specular part
-    double roughness = 0.5;                        ///< of that coat, 0…1
+    double roughness = 0.5;                        ///< of that coat or metal, 0…1; GGX alpha = roughness²
     std::string diffuseTexture;                    ///< file name as stated; "" if none
 };
 struct ImportedLight {
     std::string name;
     enum class Type { point, spot, directional, ambient } type = Type::point;
-    Vec3 position, direction{0, 0, -1};  ///< in its node's space
+    Vec3 position, direction{0, 0, -1};     ///< in its node's space
     std::array<double, 3> colour{1, 1, 1};  ///< linear sRGB as the file scales it
     double angleDegrees = 45;               ///< spot: full cone
     double blend = 0;
 };
 struct ImportedCamera {
     std::string name;
-    Affine toNode;  ///< camera space (looks down −z) to its node's space
-    double fovDegrees = 40;  ///< vertical
-    double aspect = 0;       ///< width / height; 0 if not stated
+    Affine toNode;                  ///< camera space (looks down −z) to its node's space
+    double fovDegrees = 40;         ///< vertical
+    double aspect = 0;              ///< width / height; 0 if not stated
     double orthographicHeight = 0;  ///< > 0: orthographic
 };
 struct ImportedNode {
@@ -46,17 +46,25 @@ struct ImportedNode {
     std::vector<std::uint32_t> lights, cameras;
 };
 struct ImportedScene {
-    std::vector<std::shared_ptr<const Mesh>> meshes;  ///< triangles only, positions finite, normals of the file if it has any
-    std::vector<std::uint32_t> meshMaterial;          ///< one per mesh
+    std::vector<std::shared_ptr<const Mesh>>
+        meshes;  ///< triangles only, positions finite, normals of the file if it has any
+    std::vector<std::uint32_t> meshMaterial;  ///< one per mesh
     std::vector<ImportedMaterial> materials;
     std::vector<ImportedLight> lights;
     std::vector<ImportedCamera> cameras;
     std::vector<ImportedNode> nodes;  ///< [0] is the root; parents before children
+    bool inMetres =
+        false;  ///< the format states its unit (glTF, COLLADA, FBX): the root's transform leads to metres
+    bool photometric = false;          ///< colours of lights are in cd or lx, emission is in cd/m² (glTF)
     std::vector<std::string> remarks;  ///< what was dropped (points, lines, triangles with NaN …)
+    std::vector<std::string>
+        filesRead;  ///< the model and what it refers to (.mtl, .bin), in order of reading
 };
 
-/// Throws InputError in one line for whatever Assimp refuses, and for a child that crashed, hung (`timeoutSeconds`) or ran
-/// out of memory. `restricted`: Assimp may open only files below the model's own folder.
-[[nodiscard]] ImportedScene importModel(const std::filesystem::path& path, bool restricted, double timeoutSeconds = 60);
+/// Throws InputError in one line for whatever Assimp refuses, and for a child that crashed, hung
+/// (`timeoutSeconds`) or ran out of memory. `restricted`: Assimp may open only files below the model's own
+/// folder.
+[[nodiscard]] ImportedScene importModel(const std::filesystem::path& path, bool restricted,
+                                        double timeoutSeconds = 60);
 
 }  // namespace spectrad

@@ -1,0 +1,46 @@
+// Assimp's scene in our plain form. Runs in the child process of importModel() only: Assimp may crash on what
+// it reads.
+#pragma once
+
+#include "scene/import.h"
+
+#include <assimp/scene.h>
+
+#include <filesystem>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace spectrad {
+
+/// What a format's colours, lengths and angles mean; Assimp hands them on as they stand in the file.
+struct FormatTraits {
+    bool gltf = false;       ///< linear colours; cd, lx and cd/m²; metres; cones by half their angle
+    bool halfCones = false;  ///< a spot's angles are measured from its axis (glTF, X3D), not across the cone
+    bool collada = false;
+    bool fbx = false;
+};
+[[nodiscard]] FormatTraits traitsOf(const std::string& importerName);
+
+/// Reads the file and converts all of it. Throws InputError with Assimp's message, in one line and without
+/// the file's name.
+[[nodiscard]] ImportedScene importWithAssimp(const std::filesystem::path& path, bool restricted);
+
+// ---- the parts (import_materials.cpp, import_placed.cpp)
+// ------------------------------------------------------------------
+
+/// "" of a file that has no such text; control characters as blanks, at most a few hundred bytes.
+[[nodiscard]] std::string oneLine(std::string_view text);
+
+[[nodiscard]] std::vector<ImportedMaterial> convertMaterials(const aiScene& from, const FormatTraits& traits,
+                                                             std::vector<std::string>& remarks);
+
+/// Lights and cameras, hung on the nodes that bear their names. `nodeOf`: all nodes of a name, in document
+/// order.
+using NodesByName = std::unordered_map<std::string, std::vector<std::uint32_t>>;
+void convertLights(const aiScene& from, const FormatTraits& traits, const NodesByName& nodeOf,
+                   ImportedScene& to);
+void convertCameras(const aiScene& from, const FormatTraits& traits, const NodesByName& nodeOf,
+                    ImportedScene& to);
+
+}  // namespace spectrad

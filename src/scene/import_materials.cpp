@@ -1,0 +1,158 @@
+#include "scene/import_assimp.h"
+
+#include <assimp/GltfMaterial.h>
+#include <assimp/material.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spectrad {
+
+namespace {
+
+/// IEC 61966-2-1: display value to linear.
+double decodeSrgb(double v) {
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+std::optional<std::array<double, 3>> colour(const aiMaterial& from, const char* key, unsigned type,
+                                            unsigned index) {
+    aiColor4D c;
+    if (aiGetMaterialColor(&from, key, type, index, &c) != aiReturn_SUCCESS) return std::nullopt;
+    if (!std::isfinite(c.r) || !std::isfinite(c.g) || !std::isfinite(c.b)) return std::nullopt;
+    return std::array<double, 3>{c.r, c.g, c.b};
+}
+
+std::optional<double> number(const aiMaterial& from, const char* key, unsigned type, unsigned index) {
+    ai_real value = 0;
+    if (aiGetMaterialFloat(&from, key, type, index, &value) != aiReturn_SUCCESS || !std::isfinite(value))
+        return std::nullopt;
+    return value;
+}
+
+bool black(const std::array<double, 3>& c) {
+    return c[0] <= 0 && c[1] <= 0 && c[2] <= 0;
+}
+
+/// glTF's colours are linear. Those of all other formats are what authors see on a display, so sRGB-encoded.
+std::array<double, 3> reflectance(std::array<double, 3> c, const FormatTraits& traits) {
+    for (double& v : c) {
+        v = std::clamp(v, 0.0, 1.0);
+        if (!traits.gltf) v = decodeSrgb(v);
+    }
+    return c;
+}
+
+/// Emission may exceed 1, where the sRGB curve has no meaning: the part above counts as it stands.
+std::array<double, 3> emission(std::array<double, 3> c, const FormatTraits& traits, double strength) {
+    for (double& v : c) {
+        v = std::max(v, 0.0);
+        if (!traits.gltf && v < 1) v = decodeSrgb(v);
+        v = std::min(v * strength, 1e30);
+    }
+    return c;
+}
+
+/// Whether the file's shading model has a mirror-like part at all. Several importers fill in a specular
+/// colour that no file stated (COLLADA's lambert, PLY).
+bool statesSpecular(const aiMaterial& from) {
+    int model = 0;
+    if (from.Get(AI_MATKEY_SHADING_MODEL, model) != aiReturn_SUCCESS)
+        return number(from, AI_MATKEY_SHININESS).value_or(0) > 0;
+    return model == aiShadingMode_Phong || model == aiShadingMode_Blinn ||
+           model == aiShadingMode_CookTorrance || model == aiShadingMode_Fresnel ||
+           model == aiShadingMode_PBR_BRDF;
+}
+
+/// Blinn–Phong exponent n to GGX roughness: the lobes are equally wide for alpha² = 2 / (n + 2) (Walter et
+/// al. 2007).
+double roughnessOfShininess(double n) {
+    return std::pow(2 / (std::max(n, 0.0) + 2), 0.25);
+}
+
+void setMetallicRoughness(const aiMaterial& from, ImportedMaterial& to, std::vector<std::string>& remarks) {
+    to.roughness = std::clamp(number(from, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1), 0.0, 1.0);
+    const double metalness = std::clamp(number(from, AI_MATKEY_METALLIC_FACTOR).value_or(1), 0.0, 1.0);
+    if (metalness > 0 && metalness < 1)
+        remarks.push_back("material '" + to.name + "': a surface is a metal or none: metallicFactor " +
+                          (metalness < 0.5 ? "taken as 0" : "taken as 1"));
+    if (metalness >= 0.5)
+        to.metal = to.diffuse;
+    else
+        to.ior = 1.5;  // glTF's own, unless an extension says otherwise
+}
+
+/// Strength of the highlight has no physical reading; that there is one is taken as a dielectric coat.
+void setCoat(const aiMaterial& from, ImportedMaterial& to) {
+    const auto specular = colour(from, AI_MATKEY_COLOR_SPECULAR);
+    if (!specular || black(*specular) || !statesSpecular(from)) return;
+    to.ior = 1.5;
+    if (const auto glossiness = number(from, AI_MATKEY_GLOSSINESS_FACTOR))
+        to.roughness = 1 - std::clamp(*glossiness, 0.0, 1.0);
+    else
+        to.roughness = roughnessOfShininess(number(from, AI_MATKEY_SHININESS).value_or(0));
+}
+
+/// The material that Assimp invents for meshes without one; it is a plain grey then, like a scene's own
+/// default.
+bool inventedByAssimp(const aiMaterial& from, const FormatTraits& traits) {
+    if (std::string(from.GetName().C_Str()) != AI_DEFAULT_MATERIAL_NAME) return false;
+    const auto c = colour(from, AI_MATKEY_COLOR_DIFFUSE);
+    const bool untouched = !c || (std::abs((*c)[0] - 0.6) < 1e-6 && std::abs((*c)[1] - 0.6) < 1e-6 &&
+                                  std::abs((*c)[2] - 0.6) < 1e-6);
+    return traits.gltf || untouched;
+}
+
+ImportedMaterial convert(const aiMaterial& from, const FormatTraits& traits,
+                         std::vector<std::string>& remarks) {
+    ImportedMaterial to;
+    to.name = oneLine(from.GetName().C_Str());
+    if (inventedByAssimp(from, traits)) return to;
+
+    const auto base = traits.gltf ? colour(from, AI_MATKEY_BASE_COLOR) : std::nullopt;
+    const auto diffuse = base ? base : colour(from, AI_MATKEY_COLOR_DIFFUSE);
+    if (diffuse) to.diffuse = reflectance(*diffuse, traits);
+    const bool metallicRoughness = base && number(from, AI_MATKEY_METALLIC_FACTOR).has_value();
+    if (metallicRoughness)
+        setMetallicRoughness(from, to, remarks);
+    else
+        setCoat(from, to);
+    const auto ior = number(from, AI_MATKEY_REFRACTI);
+    if (to.ior && ior && *ior > 1 && *ior <= 4) to.ior = *ior;
+
+    if (const auto emissive = colour(from, AI_MATKEY_COLOR_EMISSIVE))
+        to.emissive = emission(*emissive, traits,
+                               std::clamp(number(from, AI_MATKEY_EMISSIVE_INTENSITY).value_or(1), 0.0, 1e30));
+
+    aiString texture;
+    if (from.GetTexture(aiTextureType_BASE_COLOR, 0, &texture) == aiReturn_SUCCESS ||
+        from.GetTexture(aiTextureType_DIFFUSE, 0, &texture) == aiReturn_SUCCESS)
+        to.diffuseTexture = oneLine(texture.C_Str());
+    return to;
+}
+
+}  // namespace
+
+std::vector<ImportedMaterial> convertMaterials(const aiScene& from, const FormatTraits& traits,
+                                               std::vector<std::string>& remarks) {
+    std::vector<ImportedMaterial> materials;
+    std::vector<std::string> textures;
+    size_t transparent = 0;
+    for (unsigned i = 0; i < from.mNumMaterials; ++i) {
+        materials.push_back(convert(*from.mMaterials[i], traits, remarks));
+        if (number(*from.mMaterials[i], AI_MATKEY_OPACITY).value_or(1) < 1) ++transparent;
+        const std::string& texture = materials.back().diffuseTexture;
+        if (!texture.empty() && std::find(textures.begin(), textures.end(), texture) == textures.end())
+            textures.push_back(texture);
+    }
+    if (materials.empty()) materials.emplace_back();
+    for (size_t i = 0; i < std::min<size_t>(textures.size(), 3); ++i)
+        remarks.push_back("texture ignored: " + textures[i]);
+    if (textures.size() > 3)
+        remarks.push_back("and " + std::to_string(textures.size() - 3) + " more textures ignored");
+    if (transparent > 0)
+        remarks.push_back("opacity ignored in " + std::to_string(transparent) + " materials");
+    return materials;
+}
+
+}  // namespace spectrad

@@ -1,0 +1,167 @@
+// Lights and cameras of imported models.
+#include "scene/import_assimp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace spectrad {
+
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+Vec3 toVec3(const aiVector3D& v) {
+    return {v.x, v.y, v.z};
+}
+bool finite(Vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// Assimp ties lights and cameras to nodes by name alone. Where n of them share a name (a library node shown
+/// n times), the k-th goes with the k-th node; one that no node claims stands at the root.
+class NodeOfName {
+  public:
+    explicit NodeOfName(const NodesByName& nodes) : nodes_(nodes) {}
+    std::uint32_t next(const std::string& name) {
+        const auto found = nodes_.find(name);
+        if (found == nodes_.end()) return 0;
+        const size_t k = used_[name]++;
+        return found->second[std::min(k, found->second.size() - 1)];
+    }
+
+  private:
+    const NodesByName& nodes_;
+    std::unordered_map<std::string, size_t> used_;
+};
+
+/// COLLADA's common profile has one angle, across the cone, and an exponent e. Assimp adds an outer angle of
+/// acos(0.1^(1/e)) to it, with e = 1 where the file says 0, the standard's default for a sharp edge: more
+/// than 80° for all e up to 1.3. No cone fades that slowly, whereas penumbras that a file states are
+/// narrower.
+bool inventedPenumbra(const aiLight& from, const FormatTraits& traits) {
+    return traits.collada && degrees * (from.mAngleOuterCone - from.mAngleInnerCone) > 80;
+}
+
+void setCone(const aiLight& from, const FormatTraits& traits, ImportedLight& to) {
+    const double across = traits.halfCones ? 2 : 1;
+    double inner = across * degrees * from.mAngleInnerCone;
+    double outer = across * degrees * from.mAngleOuterCone;
+    if (inventedPenumbra(from, traits)) outer = inner;
+    if (!(outer > 0)) outer = inner;
+    if (!(outer > 0)) return;  // the default cone
+    to.angleDegrees = std::min(outer, across * 180);
+    to.blend = std::isfinite(inner) ? std::clamp(1 - inner / outer, 0.0, 1.0) : 0;
+}
+
+std::optional<ImportedLight::Type> typeOf(const aiLight& from) {
+    switch (from.mType) {
+        case aiLightSource_POINT:
+        case aiLightSource_AREA:
+            return ImportedLight::Type::point;
+        case aiLightSource_SPOT:
+            return ImportedLight::Type::spot;
+        case aiLightSource_DIRECTIONAL:
+            return ImportedLight::Type::directional;
+        case aiLightSource_AMBIENT:
+            return ImportedLight::Type::ambient;
+        default:
+            return std::nullopt;
+    }
+}
+
+/// Full vertical angle in degrees. Assimp's horizontal angle is the full one in practice, whatever its header
+/// says; for glTF it is the file's vertical angle times the aspect.
+double verticalFov(const aiCamera& from, const FormatTraits& traits) {
+    const double across = from.mHorizontalFOV;
+    if (traits.gltf) return degrees * across / (from.mAspect > 0 ? from.mAspect : 1);
+    // Without an aspect the picture will be 16:9, and shows as much from left to right as the file wants.
+    const double aspect = from.mAspect > 0 ? from.mAspect : 16.0 / 9;
+    return degrees * 2 * std::atan(std::tan(across / 2) / aspect);
+}
+
+/// What Assimp leaves of a COLLADA camera that states only its vertical angle, or is orthographic: its
+/// default angle of π/4, read as degrees.
+bool lostFov(const aiCamera& from, const FormatTraits& traits) {
+    const double left = std::numbers::pi / 4 / degrees;
+    return traits.collada && std::abs(from.mHorizontalFOV - left) < 1e-6;
+}
+
+std::optional<ImportedCamera> convert(const aiCamera& from, const FormatTraits& traits,
+                                      std::vector<std::string>& remarks) {
+    ImportedCamera to;
+    to.name = oneLine(from.mName.C_Str());
+    const Vec3 position = toVec3(from.mPosition), look = toVec3(from.mLookAt), up = toVec3(from.mUp);
+    if (!finite(position) || !finite(look) || !finite(up) || length(look) == 0) {
+        remarks.push_back("camera '" + to.name + "' looks nowhere: left out");
+        return std::nullopt;
+    }
+    to.toNode = Affine::translation(position) * Affine::lookAt({}, look, length(up) > 0 ? up : Vec3{0, 1, 0});
+    if (std::isfinite(from.mAspect) && from.mAspect > 0 && from.mAspect < 1e4f) to.aspect = from.mAspect;
+    if (from.mOrthographicWidth > 0 && std::isfinite(from.mOrthographicWidth)) {
+        to.orthographicHeight = 2 * from.mOrthographicWidth / (to.aspect > 0 ? to.aspect : 16.0 / 9);
+        return to;
+    }
+    const double fov = verticalFov(from, traits);
+    if (fov > 0 && fov < 180 && !lostFov(from, traits))
+        to.fovDegrees = fov;
+    else
+        remarks.push_back("camera '" + to.name + "': its field of view cannot be read, 40 degrees taken");
+    return to;
+}
+
+}  // namespace
+
+void convertLights(const aiScene& from, const FormatTraits& traits, const NodesByName& nodeOf,
+                   ImportedScene& to) {
+    NodeOfName node(nodeOf);
+    for (unsigned i = 0; i < from.mNumLights; ++i) {
+        const aiLight& source = *from.mLights[i];
+        const std::uint32_t place = node.next(source.mName.C_Str());
+        ImportedLight light;
+        light.name = oneLine(source.mName.C_Str());
+        const auto type = typeOf(source);
+        if (!type) {
+            to.remarks.push_back("light '" + light.name + "' is of no known type: left out");
+            continue;
+        }
+        if (source.mType == aiLightSource_AREA)
+            to.remarks.push_back("area light '" + light.name + "' taken as a point");
+        light.type = *type;
+        const aiColor3D& c =
+            *type == ImportedLight::Type::ambient ? source.mColorAmbient : source.mColorDiffuse;
+        light.colour = {c.r, c.g, c.b};
+        bool bright = false, usable = true;
+        for (double& v : light.colour) {
+            usable = usable && std::isfinite(v) && v < 1e30;
+            v = std::max(v, 0.0);
+            bright = bright || v > 0;
+        }
+        const bool placed = *type == ImportedLight::Type::point || *type == ImportedLight::Type::spot;
+        const bool directed = *type == ImportedLight::Type::spot || *type == ImportedLight::Type::directional;
+        if (placed) light.position = toVec3(source.mPosition);
+        if (directed && length(toVec3(source.mDirection)) > 0)
+            light.direction = normalized(toVec3(source.mDirection));
+        if (!usable || !bright || !finite(light.position) || !finite(light.direction)) {
+            to.remarks.push_back("light '" + light.name + "' gives no light: left out");
+            continue;
+        }
+        if (*type == ImportedLight::Type::spot) setCone(source, traits, light);
+        to.nodes[place].lights.push_back(static_cast<std::uint32_t>(to.lights.size()));
+        to.lights.push_back(std::move(light));
+    }
+}
+
+void convertCameras(const aiScene& from, const FormatTraits& traits, const NodesByName& nodeOf,
+                    ImportedScene& to) {
+    NodeOfName node(nodeOf);
+    for (unsigned i = 0; i < from.mNumCameras; ++i) {
+        const std::uint32_t place = node.next(from.mCameras[i]->mName.C_Str());
+        auto camera = convert(*from.mCameras[i], traits, to.remarks);
+        if (!camera) continue;
+        to.nodes[place].cameras.push_back(static_cast<std::uint32_t>(to.cameras.size()));
+        to.cameras.push_back(std::move(*camera));
+    }
+}
+
+}  // namespace spectrad
