@@ -1,23 +1,47 @@
-// Smooth reflectance spectra from RGB: a sigmoid of a quadratic in wavelength (Jakob & Hanika 2019, "A Low-Dimensional
-// Function Space for Efficient Spectral Upsampling"), fitted to the colour under D65 for the CIE 1931 observer.
+// Smooth reflectance spectra from RGB: a sigmoid of a quadratic in wavelength (Jakob & Hanika 2019, "A
+// Low-Dimensional Function Space for Efficient Spectral Upsampling"), fitted to the colour under D65 for the
+// CIE 1931 observer.
 #pragma once
 
 #include "spectrum/curve.h"
 
 #include <array>
+#include <vector>
 
 namespace spectrad {
 
 class Library;
 
-/// S(λ) = ½ + x / (2 √(1 + x²)), x = c[0] t² + c[1] t + c[2], t = (λ − 360 nm) / 470 nm: within 0…1.
+/// S(λ) = ½ + x / (2 √(1 + x²)), x = c[0] t² + c[1] t + c[2], t = (λ − 360 nm) / 470 nm: within 0…1. A colour
+/// says nothing about ultraviolet and infrared: outside 360…830 nm the end values are held.
 struct LiftedColour {
     std::array<double, 3> c{};
     [[nodiscard]] double at(double nm) const;
     [[nodiscard]] Curve curve() const;
 };
 
-/// Fits linear sRGB components in 0…1 by Gauss–Newton on the CIE Lab difference under D65.
+/// Linear sRGB (IEC 61966-2-1) to XYZ, and its white (1, 1, 1).
+[[nodiscard]] std::array<double, 3> xyzOfLinearSrgb(const std::array<double, 3>& rgb);
+
+/// What the fit needs of D65 and the observer, gathered once for many colours.
+class ColourLift {
+  public:
+    explicit ColourLift(const Library& library);
+    /// Fits linear sRGB components in 0…1 by damped Gauss–Newton on the CIE Lab difference under D65; greys
+    /// are exact constants. Throws InputError for components outside 0…1.
+    [[nodiscard]] LiftedColour fit(std::array<double, 3> linearSrgb) const;
+
+  private:
+    struct State;
+    [[nodiscard]] State evaluate(const std::array<double, 3>& c,
+                                 const std::array<double, 3>& targetLab) const;
+    [[nodiscard]] State approach(State start, const std::array<double, 3>& targetLab) const;
+
+    std::vector<double> t_;                       ///< (λ − 360) / 470 at 1 nm steps
+    std::vector<std::array<double, 3>> weights_;  ///< X, Y, Z of D65 under a hat there, relative to the white
+};
+
+/// One colour; for several, keep a ColourLift.
 [[nodiscard]] LiftedColour liftReflectance(std::array<double, 3> linearSrgb, const Library& library);
 
 }  // namespace spectrad
