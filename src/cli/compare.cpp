@@ -1,0 +1,199 @@
+// spectrad compare: how far two cubes are apart, over their bands and to an eye.
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/observation.h"
+#include "cli/options.h"
+#include "colour/difference.h"
+#include "image/exr_layout.h"
+#include "image/picture.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace spectrad {
+
+namespace {
+
+struct CompareArguments {
+    std::string a, b, maxDeltaE, map;
+    ObserverArguments observer;
+    bool json = false, quiet = false;
+};
+
+struct Result {
+    BandDifference bands;
+    std::optional<ColourDifference> colour;  ///< nothing where A is black and --white has no luminance
+    White white;
+};
+
+void requireComparable(const CubeInfo& a, const CubeInfo& b, Notes& notes) {
+    if (a.width != b.width || a.height != b.height)
+        throw InputError(fmt::format("the sizes differ: A has {} x {} pixels, B {} x {}", a.width, a.height,
+                                     b.width, b.height));
+    if (a.kind != b.kind)
+        throw InputError(fmt::format("the quantities differ: A holds {}, B {}", name(a.kind), name(b.kind)));
+    const std::vector<double>&nmA = a.wavelengths.nm, &nmB = b.wavelengths.nm;
+    if (nmA.size() != nmB.size())
+        throw InputError(fmt::format("the wavelengths differ: A has {} bands, B {}", nmA.size(), nmB.size()));
+    constexpr double tolerance = 1e-4;  // nm: other programs write three to six decimals
+    for (size_t band = 0; band < nmA.size(); ++band)
+        if (std::abs(nmA[band] - nmB[band]) > tolerance)
+            throw InputError(fmt::format("the wavelengths differ: band {} is {} nm in A, {} nm in B",
+                                         band + 1, shortest(nmA[band]), shortest(nmB[band])));
+    if (a.wavelengths.projection != b.wavelengths.projection)
+        notes.warn(fmt::format("the bands mean different things: {} in A, {} in B",
+                               name(a.wavelengths.projection), name(b.wavelengths.projection)));
+}
+
+BandDifference bandDifference(const Cube& a, const Cube& b) {
+    BandDifferenceMeter meter(a.info.wavelengths.size(), a.info.width);
+    for (int y = 0; y < a.info.height; ++y)
+        meter.add(a.row(y, 0), b.row(y, 0));
+    return meter.result();
+}
+
+Result compareCubes(const CompareArguments& arguments, const Cube& a, const Cube& b, Notes& notes) {
+    Result result;
+    result.bands = bandDifference(a, b);
+    const Observation seesA(arguments.observer, a.info, notes), seesB(arguments.observer, b.info, notes);
+    const ChannelImage xyzA = seesA.xyz(seesA.channels(a)), xyzB = seesB.xyz(seesB.channels(b));
+    result.white = seesA.white(xyzA);
+    const double brightestA = brightest(xyzA);
+    if (!result.white.hasLuminance && !(brightestA > 0)) {
+        notes.warn("A is black: there is no white for a colour difference (--white X,Y,Z gives one)");
+        return result;
+    }
+    result.white = withLuminance(result.white, brightestA);
+    result.colour = colourDifference(xyzA, xyzB, result.white.xyz);
+    return result;
+}
+
+void writeMap(const std::string& file, const CubeInfo& info, const ColourDifference& colour) {
+    writePng(file, {info.width, info.height, 3, falseColours(colour.map, colour.max > 0 ? colour.max : 1)},
+             {{"Description", "CIEDE2000 from 0 (dark blue) to " + rounded(colour.max, 6) + " (yellow)"}});
+}
+
+/// The last two are undefined where no pixel has a shape in both.
+Json described(const Result& result, const CompareArguments& arguments) {
+    const BandDifference& bands = result.bands;
+    const bool shapes = bands.compared > 0;
+    Json out{{"band_rmse", bands.rmse},
+             {"band_relative_max", bands.relativeMax},
+             {"gfc_min", shapes ? Json(bands.gfcMin) : Json()},
+             {"spectral_angle_max_rad", shapes ? Json(bands.spectralAngleMax) : Json()},
+             {"black_in_one", bands.blackInOne}};
+    if (result.colour) {
+        const ColourDifference& colour = *result.colour;
+        out["deltae00"] = {{"mean", colour.mean},
+                           {"p95", colour.p95},
+                           {"max", colour.max},
+                           {"max_at", {colour.maxX, colour.maxY}}};
+    } else {
+        out["deltae00"] = {{"mean", nullptr}, {"p95", nullptr}, {"max", nullptr}, {"max_at", nullptr}};
+    }
+    out["observer"] = arguments.observer.observer;
+    out["white"] = {{"name", result.white.name}, {"XYZ", result.white.xyz}};
+    if (!arguments.map.empty() && result.colour)
+        out["map"] = {{"file", arguments.map}, {"deltae00_from", 0}, {"deltae00_to", result.colour->max}};
+    return out;
+}
+
+void printTable(const Result& result, const CompareArguments& arguments, const CubeInfo& info) {
+    const BandDifference& bands = result.bands;
+    printText(fmt::format("band rmse            {} {}\n", rounded(bands.rmse, 6), unit(info.kind)));
+    if (std::isfinite(bands.relativeMax))
+        printText(fmt::format("band relative max    {} (at {} nm)\n", rounded(bands.relativeMax, 6),
+                              rounded(info.wavelengths.nm.at(bands.relativeMaxBand), 9)));
+    else
+        printText(fmt::format("band relative max    undefined (A is zero at {} nm, B is not)\n",
+                              rounded(info.wavelengths.nm.at(bands.relativeMaxBand), 9)));
+    if (bands.compared > 0)
+        printText(fmt::format("gfc min              {}\nspectral angle max   {} rad\n",
+                              rounded(bands.gfcMin, 9), rounded(bands.spectralAngleMax, 6)));
+    if (bands.blackInOne > 0) printText(fmt::format("black in one only    {} pixels\n", bands.blackInOne));
+    if (!result.colour) return;
+    const ColourDifference& colour = *result.colour;
+    printText(fmt::format("CIEDE2000            mean {}, 95 % {}, max {} at {},{} (white {} at Y = {}, {})\n",
+                          rounded(colour.mean, 4), rounded(colour.p95, 4), rounded(colour.max, 4),
+                          colour.maxX, colour.maxY, result.white.name, rounded(result.white.xyz[1], 5),
+                          arguments.observer.observer));
+    if (!arguments.map.empty())
+        printText(fmt::format("map                  {}: CIEDE2000 from 0 (dark blue) to {} (yellow)\n",
+                              arguments.map, rounded(colour.max, 4)));
+}
+
+/// Beyond the bound, or without a difference to hold against it although the cubes are not the same.
+ExitCode judged(const Result& result, double bound) {
+    if (!result.colour) {
+        if (result.bands.rmse == 0) return ExitCode::ok;
+        printError("the colour difference is undefined, so it is not within the bound");
+        return ExitCode::input;
+    }
+    if (result.colour->max <= bound) return ExitCode::ok;
+    printError(fmt::format("CIEDE2000 is {} at {},{}, beyond the bound of {}", rounded(result.colour->max, 6),
+                           result.colour->maxX, result.colour->maxY, shortest(bound)));
+    return ExitCode::input;
+}
+
+ExitCode compare(const CompareArguments& arguments) {
+    constexpr double infinity = std::numeric_limits<double>::max();
+    const double bound = arguments.maxDeltaE.empty()
+                             ? infinity
+                             : parseNumber("--max-deltae", arguments.maxDeltaE, 0, infinity);
+    if (!arguments.map.empty()) {
+        if (extensionOf(arguments.map) != ".png")
+            throw UsageError("--map: '" + arguments.map + "' must end in .png");
+        requireWritable(arguments.map);
+    }
+    Console console(arguments.quiet);
+    const Cube a = readCube(arguments.a, console.notes()), b = readCube(arguments.b, console.notes());
+    requireComparable(a.info, b.info, console.notes());
+    const Result result = compareCubes(arguments, a, b, console.notes());
+    console.printNotes();
+    if (!arguments.map.empty() && result.colour) writeMap(arguments.map, a.info, *result.colour);
+    if (arguments.json)
+        printJson(described(result, arguments));
+    else
+        printTable(result, arguments, a.info);
+    return arguments.maxDeltaE.empty() ? ExitCode::ok : judged(result, bound);
+}
+
+}  // namespace
+
+void addCompare(CLI::App& app, Action& action) {
+    CLI::App* command = app.add_subcommand("compare", "Compare two cubes: bands, spectral shapes, CIEDE2000");
+    auto arguments = std::make_shared<CompareArguments>();
+    command->add_option("A", arguments->a, "spectral image, EXR or ENVI")->type_name("A.exr")->required();
+    command->add_option("B", arguments->b, "another of the same size and wavelengths")
+        ->type_name("B.exr")
+        ->required();
+    addObserverOptions(*command, arguments->observer);
+    command
+        ->add_option("--max-deltae", arguments->maxDeltaE,
+                     "exit with 1 if CIEDE2000 of any pixel is beyond this")
+        ->type_name("X");
+    command
+        ->add_option("--map", arguments->map,
+                     "write CIEDE2000 of each pixel in false colours; the range is printed")
+        ->type_name("OUT.png");
+    command->add_flag("--json", arguments->json, "print a JSON object");
+    command->add_flag("-q,--quiet", arguments->quiet, "no remarks on standard error");
+    command->footer(
+        "band rmse: root mean square of A - B over pixels and bands, in the cubes' unit "
+        "(W.m^-2.sr^-1.nm^-1). band relative\n"
+        "max: the largest |A - B| of a band by A's largest value in it. gfc: goodness of fit, the cosine "
+        "between two pixels'\n"
+        "spectra; spectral angle: in rad. A white without luminance counts at A's brightest Y.\n\n"
+        "Examples:\n"
+        "  spectrad compare reference.exr new.exr --max-deltae 0.5\n"
+        "  spectrad compare a.exr b.exr --observer cie1964-10 --map difference.png --json");
+    command->final_callback([&action, arguments] { action = [arguments] { return compare(*arguments); }; });
+}
+
+}  // namespace spectrad

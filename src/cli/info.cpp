@@ -1,0 +1,106 @@
+// spectrad info: what a scene needs, what a cube holds, what a spectrum is, or what the library has.
+#include "cli/info.h"
+
+#include "cli/commands.h"
+#include "image/cube.h"
+#include "spectrum/library.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+namespace spectrad {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct InfoArguments {
+    SceneArguments scene;
+    bool list = false, json = false, quiet = false;
+};
+
+enum class Kind { scene, cube, spectrum };
+
+/// Files that hold curves; any other file that is no cube is read as a scene or a model.
+constexpr std::array<std::string_view, 8> spectrumExtensions{".csv", ".tsv", ".txt",   ".spd",
+                                                             ".sp",  ".dat", ".cgats", ".ti3"};
+constexpr std::array<std::string_view, 4> cubeExtensions{".exr", ".img", ".hdr", ".bil"};
+
+template <size_t N>
+bool contains(const std::array<std::string_view, N>& names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Kind kindOf(const std::string& text) {
+    const std::string extension = extensionOf(text);
+    std::error_code ignored;
+    if (fs::is_regular_file(text, ignored)) {
+        if (looksLikeCube(text)) return Kind::cube;
+        return contains(spectrumExtensions, extension) ? Kind::spectrum : Kind::scene;
+    }
+    if (contains(cubeExtensions, extension)) return Kind::cube;
+    return extension == ".xml" || fs::is_directory(text, ignored) ? Kind::scene : Kind::spectrum;
+}
+
+ExitCode inform(const InfoArguments& arguments) {
+    Console console(arguments.quiet);
+    const std::string& what = arguments.scene.file;
+    if (arguments.list) {
+        printLibrary(Library::open(), what, arguments.json);
+        return ExitCode::ok;
+    }
+    if (what.empty()) throw UsageError("info needs a SCENE, a CUBE or a SPECTRUM, or --list");
+    switch (kindOf(what)) {
+        case Kind::scene:
+            printSceneInfo(arguments.scene, arguments.json, console);
+            break;
+        case Kind::cube:
+            printCubeInfo(what, arguments.json, console);
+            break;
+        case Kind::spectrum:
+            printSpectrumInfo(what, Library::open(), arguments.json, console);
+            break;
+    }
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void addInfo(CLI::App& app, Action& action) {
+    CLI::App* command =
+        app.add_subcommand("info", "Describe a scene's plan, a cube, a spectrum, or list the library");
+    auto arguments = std::make_shared<InfoArguments>();
+    command
+        ->add_option(
+            "WHAT", arguments->scene.file,
+            "a scene or model file; a spectral image (EXR or ENVI); a spectrum as scenes write it, such as "
+            "illuminants/D65, lamp.csv#3 or blackbody:2856; with --list a prefix of names")
+        ->type_name("SCENE|CUBE|SPECTRUM");
+    command->add_flag("--list", arguments->list,
+                      "list the library's spectra, with WHAT only those whose names start so");
+    command->add_flag("--json", arguments->json, "print one JSON value");
+    command->add_flag("-q,--quiet", arguments->quiet, "no remarks on standard error");
+    addSceneOptions(*command, arguments->scene);
+    addDeviceOption(*command, arguments->scene.device);
+    command->footer(
+        "Of a scene: triangles, lights, materials, terms (light x lobe x material), features, bands, samples "
+        "a pixel, and on\n"
+        "the device the rows of a strip and its bytes. Of a cube: size in pixels, wavelengths in nm, the "
+        "smallest and\n"
+        "largest value of each band (radiance in W.m^-2.sr^-1.nm^-1, reflectance 0 to 1). Of a spectrum: "
+        "quantity, unit,\n"
+        "range in nm, integral (unit x nm); of a light its chromaticity, CCT in K and Duv (CIE 1931); of a "
+        "reflectance its\n"
+        "XYZ and CIELAB under D65 (white Y = 100); and a plot.\n\n"
+        "Examples:\n"
+        "  spectrad info scene.xml\n"
+        "  spectrad info scene.exr --json\n"
+        "  spectrad info illuminants/FL11\n"
+        "  spectrad info --list charts/colorchecker");
+    command->final_callback([&action, arguments] { action = [arguments] { return inform(*arguments); }; });
+}
+
+}  // namespace spectrad
