@@ -25,7 +25,7 @@ struct Plan {
     std::uint64_t stripBytes = 0;       ///< asked for, or 0
     std::string whiteName;              ///< the first light's spectrum as the user named it, or "E"
     std::array<double, 3> white{};      ///< its XYZ at Y = 1 (CIE 1931)
-    double previewScale = 1;            ///< what the preview's linear RGB was multiplied by
+
 
     [[nodiscard]] size_t triangles() const { return world.index.size() / 3; }
     [[nodiscard]] size_t lights() const { return world.lights.size(); }

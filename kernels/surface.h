@@ -1,0 +1,90 @@
+/* What a sample sees of a triangle: position, normal, view direction, in camera space. Vectors of lanes, one triangle at a time. */
+#include "prelude.h"
+
+typedef struct v3 {
+    vfloat x, y, z;
+} v3;
+
+static inline vfloat dot3(v3 a, v3 b) { return fma(a.z, b.z, fma(a.y, b.y, a.x * b.x)); }
+static inline v3 scale3(v3 a, vfloat s) {
+    const v3 r = {a.x * s, a.y * s, a.z * s};
+    return r;
+}
+static inline v3 add3(v3 a, v3 b) {
+    const v3 r = {a.x + b.x, a.y + b.y, a.z + b.z};
+    return r;
+}
+static inline v3 cross3(v3 a, v3 b) {
+    const v3 r = {fma(a.y, b.z, -(a.z * b.y)), fma(a.z, b.x, -(a.x * b.z)), fma(a.x, b.y, -(a.y * b.x))};
+    return r;
+}
+/* Unit vector; a zero vector stays zero. */
+static inline v3 unit3(v3 a) {
+    const vfloat square = dot3(a, a);
+    return scale3(a, 1.0f / sqrt(select(square, (vfloat)1.0f, square == 0.0f)));
+}
+
+typedef struct surface {
+    v3 position; /* m */
+    v3 normal;   /* unit, on the seen side */
+    v3 view;     /* unit, towards the viewer */
+    vfloat cos_view;
+} surface;
+
+/* Grazing views are held a little off the horizon, where microfacet terms divide by the cosine. */
+#define MIN_COS_VIEW 1e-5f
+
+/* x, y: the samples, SD_SUBPIXEL-ths of a pixel from the image's centre. Barycentrics come from the unclipped corners relative to
+ * each sample's ray (the 2-D homogeneous form), so that no clipping or snapping enters; samples that snapping has put a little
+ * outside are moved back to the edge. */
+static surface surface_at(global const uint* corner, global const float* camera, global const float* normals, sd_frame frame,
+                          vfloat x, vfloat y) {
+    const global float* p0 = camera + 3 * (size_t)corner[0];
+    const global float* p1 = camera + 3 * (size_t)corner[1];
+    const global float* p2 = camera + 3 * (size_t)corner[2];
+    const vfloat rx = x * frame.slope_per_subpixel, ry = -(y * frame.slope_per_subpixel);
+    vfloat u0, v0, u1, v1, u2, v2;
+    if (frame.orthographic) {
+        u0 = p0[0] - rx, v0 = p0[1] - ry, u1 = p1[0] - rx, v1 = p1[1] - ry, u2 = p2[0] - rx, v2 = p2[1] - ry;
+    } else {
+        u0 = fma(rx, (vfloat)p0[2], (vfloat)p0[0]), v0 = fma(ry, (vfloat)p0[2], (vfloat)p0[1]);
+        u1 = fma(rx, (vfloat)p1[2], (vfloat)p1[0]), v1 = fma(ry, (vfloat)p1[2], (vfloat)p1[1]);
+        u2 = fma(rx, (vfloat)p2[2], (vfloat)p2[0]), v2 = fma(ry, (vfloat)p2[2], (vfloat)p2[1]);
+    }
+    vfloat b0 = fma(u1, v2, -(u2 * v1)), b1 = fma(u2, v0, -(u0 * v2)), b2 = fma(u0, v1, -(u1 * v0));
+    const vfloat turn = copysign((vfloat)1.0f, b0 + b1 + b2);
+    b0 = fmax(b0 * turn, 0.0f), b1 = fmax(b1 * turn, 0.0f), b2 = fmax(b2 * turn, 0.0f);
+    const vfloat sum = b0 + b1 + b2;
+    /* Seen exactly edge-on, nothing is left: the middle stands for the triangle. */
+    const vint flat_on = !(sum > 0.0f);
+    const vfloat inv = 1.0f / select(sum, (vfloat)1.0f, flat_on);
+    const vfloat third = 1.0f / 3.0f;
+    b0 = select(b0 * inv, third, flat_on), b1 = select(b1 * inv, third, flat_on), b2 = select(b2 * inv, third, flat_on);
+
+    surface s;
+    s.position.x = fma(b2, (vfloat)p2[0], fma(b1, (vfloat)p1[0], b0 * p0[0]));
+    s.position.y = fma(b2, (vfloat)p2[1], fma(b1, (vfloat)p1[1], b0 * p0[1]));
+    s.position.z = fma(b2, (vfloat)p2[2], fma(b1, (vfloat)p1[2], b0 * p0[2]));
+    const global float* n0 = normals + 3 * (size_t)corner[0];
+    const global float* n1 = normals + 3 * (size_t)corner[1];
+    const global float* n2 = normals + 3 * (size_t)corner[2];
+    v3 n;
+    n.x = fma(b2, (vfloat)n2[0], fma(b1, (vfloat)n1[0], b0 * n0[0]));
+    n.y = fma(b2, (vfloat)n2[1], fma(b1, (vfloat)n1[1], b0 * n0[1]));
+    n.z = fma(b2, (vfloat)n2[2], fma(b1, (vfloat)n1[2], b0 * n0[2]));
+    if (frame.orthographic) {
+        s.view.x = 0.0f, s.view.y = 0.0f, s.view.z = 1.0f;
+    } else {
+        s.view.x = -s.position.x, s.view.y = -s.position.y, s.view.z = -s.position.z;
+        s.view = unit3(s.view);
+    }
+    /* The seen side: the face's plane decides, so that a smooth normal that leans over the silhouette stays on its side. */
+    const v3 e1 = {(vfloat)(p1[0] - p0[0]), (vfloat)(p1[1] - p0[1]), (vfloat)(p1[2] - p0[2])};
+    const v3 e2 = {(vfloat)(p2[0] - p0[0]), (vfloat)(p2[1] - p0[1]), (vfloat)(p2[2] - p0[2])};
+    const v3 face = cross3(e1, e2);
+    const vfloat seen = dot3(face, s.view), along = dot3(face, n);
+    n = unit3(n);
+    s.normal = scale3(n, copysign((vfloat)1.0f, seen) * copysign((vfloat)1.0f, along));
+    s.cos_view = fmax(dot3(s.normal, s.view), MIN_COS_VIEW);
+    return s;
+}

@@ -1,0 +1,139 @@
+#include "opencl/device_body.h"
+
+#include "base/error.h"
+
+#include <fmt/format.h>
+
+namespace spectrad {
+
+namespace {
+
+struct Found {
+    cl::Platform platform;
+    cl::Device device;
+    DeviceInfo info;
+};
+
+DeviceInfo describe(const cl::Platform& platform, const cl::Device& device, int number) {
+    DeviceInfo info;
+    info.number = number;
+    info.name = device.getInfo<CL_DEVICE_NAME>();
+    info.platform = platform.getInfo<CL_PLATFORM_NAME>();
+    info.vendor = device.getInfo<CL_DEVICE_VENDOR>();
+    info.driver = device.getInfo<CL_DRIVER_VERSION>();
+    info.version = device.getInfo<CL_DEVICE_VERSION>();
+    const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
+    info.type = (type & CL_DEVICE_TYPE_GPU) ? "gpu" : (type & CL_DEVICE_TYPE_CPU) ? "cpu" : "accelerator";
+    info.computeUnits = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    info.globalMemoryBytes = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+    info.maxAllocationBytes = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+    const std::string extensions = device.getInfo<CL_DEVICE_EXTENSIONS>();
+    info.fp64 = extensions.find("cl_khr_fp64") != std::string::npos;
+    info.atomics64 = extensions.find("cl_khr_int64_extended_atomics") != std::string::npos;
+    return info;
+}
+
+std::vector<Found> findDevices() {
+    std::vector<Found> found;
+    std::vector<cl::Platform> platforms;
+    try {
+        cl::Platform::get(&platforms);
+    } catch (const cl::Error&) {
+        return found;  // no platform at all is an error in some loaders, an empty list in others
+    }
+    for (const cl::Platform& platform : platforms) {
+        std::vector<cl::Device> devices;
+        try {
+            platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+            for (const cl::Device& device : devices)
+                found.push_back({platform, device, describe(platform, device, static_cast<int>(found.size()))});
+        } catch (const cl::Error&) {
+            continue;  // a platform without devices
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+std::vector<DeviceInfo> listDevices() {
+    std::vector<DeviceInfo> list;
+    for (const Found& found : findDevices()) list.push_back(found.info);
+    return list;
+}
+
+Device Device::open(std::optional<int> number) {
+    const std::vector<Found> found = findDevices();
+    if (found.empty())
+        throw MachineError("no OpenCL device: install an OpenCL driver (on Debian: apt-get install pocl-opencl-icd)");
+    const Found* chosen = &found.front();
+    if (number) {
+        if (*number < 0 || static_cast<size_t>(*number) >= found.size())
+            throw UsageError(fmt::format("there is no device {} (spectrad devices lists 0…{})", *number, found.size() - 1));
+        chosen = &found[static_cast<size_t>(*number)];
+    } else {
+        for (const Found& candidate : found) {
+            if (candidate.info.type == "gpu") {
+                chosen = &candidate;
+                break;
+            }
+        }
+    }
+    if (!chosen->info.atomics64)
+        throw MachineError(fmt::format("device {} ({}) lacks 64-bit atomics (cl_khr_int64_extended_atomics)",
+                                       chosen->info.number, chosen->info.name));
+    if (!chosen->info.fp64)
+        throw MachineError(fmt::format("device {} ({}) lacks double precision (cl_khr_fp64)", chosen->info.number,
+                                       chosen->info.name));
+    Device device;
+    device.body_ = std::make_shared<Body>();
+    device.body_->info = chosen->info;
+    device.body_->device = chosen->device;
+    checked(*device.body_, "open", [&] {
+        device.body_->context = cl::Context(chosen->device);
+        device.body_->queue = cl::CommandQueue(device.body_->context, chosen->device);
+    });
+    return device;
+}
+
+const DeviceInfo& Device::info() const { return body_->info; }
+
+void throwMachineError(const cl::Error& error, const std::string& doing, const Device::Body& device) {
+    throw MachineError(fmt::format("OpenCL: {} failed with {} in {} on {}", doing, clErrorName(error.err()), error.what(),
+                                   device.info.name));
+}
+
+cl::Buffer allocate(const Device& device, size_t bytes, const char* what) {
+    const DeviceInfo& info = device.info();
+    if (bytes > info.maxAllocationBytes)
+        throw MachineError(fmt::format("{} needs {} bytes in one piece, more than the {} that device {} ({}) gives", what,
+                                       bytes, info.maxAllocationBytes, info.number, info.name));
+    return checked(device.body(), what,
+                   [&] { return cl::Buffer(device.body().context, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, bytes); });
+}
+
+std::string clErrorName(int code) {
+    switch (code) {
+        case CL_DEVICE_NOT_FOUND: return "CL_DEVICE_NOT_FOUND";
+        case CL_DEVICE_NOT_AVAILABLE: return "CL_DEVICE_NOT_AVAILABLE";
+        case CL_COMPILER_NOT_AVAILABLE: return "CL_COMPILER_NOT_AVAILABLE";
+        case CL_MEM_OBJECT_ALLOCATION_FAILURE: return "CL_MEM_OBJECT_ALLOCATION_FAILURE";
+        case CL_OUT_OF_RESOURCES: return "CL_OUT_OF_RESOURCES";
+        case CL_OUT_OF_HOST_MEMORY: return "CL_OUT_OF_HOST_MEMORY";
+        case CL_BUILD_PROGRAM_FAILURE: return "CL_BUILD_PROGRAM_FAILURE";
+        case CL_INVALID_VALUE: return "CL_INVALID_VALUE";
+        case CL_INVALID_DEVICE: return "CL_INVALID_DEVICE";
+        case CL_INVALID_CONTEXT: return "CL_INVALID_CONTEXT";
+        case CL_INVALID_BINARY: return "CL_INVALID_BINARY";
+        case CL_INVALID_KERNEL_NAME: return "CL_INVALID_KERNEL_NAME";
+        case CL_INVALID_ARG_INDEX: return "CL_INVALID_ARG_INDEX";
+        case CL_INVALID_ARG_VALUE: return "CL_INVALID_ARG_VALUE";
+        case CL_INVALID_ARG_SIZE: return "CL_INVALID_ARG_SIZE";
+        case CL_INVALID_KERNEL_ARGS: return "CL_INVALID_KERNEL_ARGS";
+        case CL_INVALID_WORK_GROUP_SIZE: return "CL_INVALID_WORK_GROUP_SIZE";
+        case CL_INVALID_BUFFER_SIZE: return "CL_INVALID_BUFFER_SIZE";
+        default: return "error " + std::to_string(code);
+    }
+}
+
+}  // namespace spectrad

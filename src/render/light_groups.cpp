@@ -1,0 +1,122 @@
+#include "render/light_groups.h"
+
+#include "base/text.h"
+#include "colour/detector.h"
+#include "spectrum/projection.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace spectrad {
+
+namespace {
+
+/// ∫ curve dλ over its own range; formulae without one are integrated as far as their power reaches.
+double radiometricIntegral(const Emitter& emitter) {
+    const Curve& curve = emitter.spectrum.curve();
+    if (emitter.amount->over) {
+        const std::array<const Curve*, 1> product{&curve};
+        return integrate(product, emitter.amount->over->first, emitter.amount->over->second);
+    }
+    if (curve.isConstant())
+        throw InputError(emitter.where, "a constant spectrum has no total: say over which wavelengths, as in \"100 W/m2 over 400:700\"");
+    const std::array<const Curve*, 1> product{&curve};
+    // Planck's law is the one formula without a range: below 1 nm and beyond 0.1 m nothing is left of it for any lamp.
+    return curve.range() ? integrate(product) : integrate(product, 1, 1e8);
+}
+
+double photometricIntegral(const Emitter& emitter, const Detector& observer) {
+    const Curve& curve = emitter.spectrum.curve();
+    const std::array<const Curve*, 2> product{&curve, &observer.response[1]};
+    if (emitter.amount->over)
+        return luminousEfficacy * integrate(product, emitter.amount->over->first, emitter.amount->over->second);
+    return luminousEfficacy * integrate(product);
+}
+
+/// Solid angle, sr, that the same intensity as on the axis would fill with a spot's power: ∫ fade dω.
+double spotSolidAngle(double cosOuter, double cosInner) {
+    // Smoothstep over the cosine has mean ½ on its ramp.
+    return 2 * std::numbers::pi * ((1 - cosInner) + 0.5 * (cosInner - cosOuter));
+}
+
+struct Cone {
+    double cosOuter, cosInner;
+};
+Cone coneOf(const Light& light) {
+    const double half = light.angle / 2 * std::numbers::pi / 180;
+    return {std::cos(half), std::cos(half * (1 - light.blend))};
+}
+
+sd_light placed(const Light& light, const Affine& toWorld, const View& view) {
+    sd_light l{};
+    const Vec3 position = view.worldToCamera.point(toWorld.point(light.position));
+    const Vec3 along = normalized(view.worldToCamera.direction(toWorld.direction(light.direction)));
+    switch (light.type) {
+        case LightType::point: l.type = SD_LIGHT_POINT; break;
+        case LightType::spot: l.type = SD_LIGHT_SPOT; break;
+        case LightType::directional: l.type = SD_LIGHT_DIRECTIONAL; break;
+        case LightType::ambient: l.type = SD_LIGHT_AMBIENT; break;
+    }
+    const Vec3 place = light.type == LightType::directional ? along * -1 : position;
+    l.x = static_cast<float>(place.x);
+    l.y = static_cast<float>(place.y);
+    l.z = static_cast<float>(place.z);
+    if (light.type == LightType::spot) {
+        const Cone cone = coneOf(light);
+        l.axis_x = static_cast<float>(along.x);
+        l.axis_y = static_cast<float>(along.y);
+        l.axis_z = static_cast<float>(along.z);
+        l.cos_outer = static_cast<float>(cone.cosOuter);
+        // A hard edge is a ramp narrower than float resolves.
+        l.inv_cos_range = static_cast<float>(1 / std::max(cone.cosInner - cone.cosOuter, 1e-7));
+    }
+    return l;
+}
+
+double powerToIntensity(const Light& light) {
+    if (light.type == LightType::point) return 1 / (4 * std::numbers::pi);
+    if (light.type == LightType::spot) {
+        const Cone cone = coneOf(light);
+        return 1 / spotSolidAngle(cone.cosOuter, cone.cosInner);
+    }
+    return 1;
+}
+
+}  // namespace
+
+double absoluteFactor(const Emitter& emitter, const Detector& observer, double powerToOwnUnit) {
+    if (!emitter.amount) return emitter.scale;
+    const Amount& amount = *emitter.amount;
+    if (amount.value == 0) return 0;
+    const double total = isPhotometric(amount.unit) ? photometricIntegral(emitter, observer) : radiometricIntegral(emitter);
+    if (!(total > 0))
+        throw InputError(emitter.where, "spectrum '" + emitter.spectrum.text + "' has no " +
+                                            (isPhotometric(amount.unit) ? "light that is seen" : "power") +
+                                            ", so it cannot be given that amount");
+    const bool power = amount.unit == AmountUnit::lumen || amount.unit == AmountUnit::watt;
+    return amount.value / total * (power ? powerToOwnUnit : 1);
+}
+
+std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view, const Detector& observer,
+                                    std::vector<sd_light>& lights) {
+    std::vector<LightGroup> groups;
+    for (const Placed& place : flat.lights) {
+        const Light& light = scene.lights[place.index];
+        double factor = absoluteFactor(light.emitter, observer, powerToIntensity(light));
+        // Uniform radiance L from everywhere arrives as irradiance π L.
+        if (light.type == LightType::ambient) factor *= std::numbers::pi;
+        size_t group = 0;
+        while (group < groups.size() && groups[group].text != light.emitter.spectrum.text) ++group;
+        if (group == groups.size()) groups.push_back({light.emitter.spectrum.curve(), 0, light.emitter.spectrum.text});
+        // The first light that shines sets the group's absolute spectrum, so that terms are of the image's own magnitude.
+        if (groups[group].factor == 0) groups[group].factor = factor;
+        sd_light l = placed(light, place.toWorld, view);
+        l.group = static_cast<sd_uint>(group);
+        l.scale = groups[group].factor == 0 ? 0.0f : static_cast<float>(factor / groups[group].factor);
+        lights.push_back(l);
+    }
+    return groups;
+}
+
+}  // namespace spectrad

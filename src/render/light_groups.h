@@ -1,0 +1,29 @@
+// Lights of one spectrum share their terms: a group is a spectrum, its lights differ in place and amount only.
+#pragma once
+
+#include "scene/scene.h"
+#include "types.h"
+#include "world.h"
+
+#include <vector>
+
+namespace spectrad {
+
+struct Detector;
+
+struct LightGroup {
+    Curve spectrum;     ///< as it stands
+    double factor = 1;  ///< spectrum × factor: irradiance per nm that a light of scale 1 gives (point: intensity, at 1 m)
+    std::string text;   ///< the spectrum as the user named it
+};
+
+/// Factor that makes the emitter's spectrum absolute in its own unit per nm (W/sr, W·m⁻² or W·m⁻²·sr⁻¹): amount ÷ the
+/// spectrum's integral. `powerToOwnUnit`: 1/(4π) for a point light whose amount is a power, and so on; 1 where it is none.
+/// Throws InputError where the integral is zero, or does not exist (a constant without a range).
+[[nodiscard]] double absoluteFactor(const Emitter& emitter, const Detector& observer, double powerToOwnUnit = 1);
+
+/// Places the scene's lights for a view and groups them. Lights of no power are kept: they cost little and change nothing.
+[[nodiscard]] std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view,
+                                                  const Detector& observer, std::vector<sd_light>& lights);
+
+}  // namespace spectrad

@@ -1,0 +1,295 @@
+#include "render/stages.h"
+
+#include <algorithm>
+
+namespace spectrad {
+
+namespace {
+
+std::vector<std::string> withDevice(std::vector<std::string> defines, const Device& device) {
+    defines.push_back("VW=" + std::to_string(device.body().vectorWidth()));
+    return defines;
+}
+
+/// Coverage depends on the number of sample slots only: the program is shared by all plans that agree on it.
+std::vector<std::string> geometryDefines(const Plan& plan, const Device& device) {
+    std::vector<std::string> defines;
+    for (const std::string& define : plan.defines)
+        if (define.starts_with("SLOTS=")) defines.push_back(define);
+    return withDevice(defines, device);
+}
+
+sd_frame makeFrame(const Plan& plan, const LanePattern& lanes) {
+    sd_frame frame{};
+    frame.pixels_per_slope = plan.view.pixelsPerSlope;
+    frame.slope_per_subpixel = static_cast<float>(1 / (SD_SUBPIXEL * plan.view.pixelsPerSlope));
+    frame.orthographic = plan.view.orthographic;
+    frame.width = plan.view.width;
+    frame.height = plan.view.height;
+    frame.pitch = (frame.width + SD_BLOCK - 1) / SD_BLOCK * SD_BLOCK;
+    frame.samples = plan.samples;
+    while ((2 << frame.tile_shift) * (2 << frame.tile_shift) * lanes.slots <= SD_TILE_SAMPLES) ++frame.tile_shift;
+    return frame;
+}
+
+}  // namespace
+
+Stages::Stages(const Device& device, const Plan& plan, const LanePattern& lanes)
+    : device_(device),
+      plan_(plan),
+      frame_(makeFrame(plan, lanes)),
+      triangles_(static_cast<std::uint32_t>(plan.triangles())),
+      vertices_(static_cast<std::uint32_t>(plan.world.vertexDraw.size())),
+      words_(static_cast<std::uint32_t>((plan.world.materials.size() + 31) / 32)),
+      geometry_(device, {"transform.cl", "clear.cl", "small.cl", "clip.cl", "tiles.cl"}, geometryDefines(plan, device)),
+      shading_(device, {"materials.cl", "light.cl", "expand.cl"}, withDevice(plan.defines, device)),
+      transform_(geometry_.kernel("transform")),
+      clear_(geometry_.kernel("clear_keys")),
+      small_(geometry_.kernel("cover_small")),
+      setup_(geometry_.kernel("setup_large")),
+      clip_(geometry_.kernel("clip_triangles")),
+      count_(geometry_.kernel("count_tiles")),
+      scan_(geometry_.kernel("scan")),
+      deal_(geometry_.kernel("deal_tiles")),
+      tiles_(geometry_.kernel("cover_tiles")),
+      find_(shading_.kernel("find_materials")),
+      scanTerms_(shading_.kernel("scan_terms")),
+      list_(shading_.kernel("list_terms")),
+      light_(shading_.kernel("light_block")),
+      expand_(shading_.kernel("expand")) {
+    uploadWorld();
+    slotX_.upload(device_, lanes.slotX.data(), lanes.slotX.size(), "the sample pattern");
+    slotY_.upload(device_, lanes.slotY.data(), lanes.slotY.size(), "the sample pattern");
+    laneX_.upload(device_, lanes.laneX.data(), lanes.laneX.size(), "the sample pattern");
+    laneY_.upload(device_, lanes.laneY.data(), lanes.laneY.size(), "the sample pattern");
+    used_.upload(device_, lanes.used.data(), lanes.used.size(), "the sample pattern");
+}
+
+void Stages::uploadWorld() {
+    const World& world = plan_.world;
+    const auto up = [this](auto& array, const auto& data, const char* what) {
+        array.upload(device_, data.data(), data.size(), what);
+    };
+    up(position_, world.position, "the scene's vertices");
+    up(normal_, world.normal, "the scene's normals");
+    up(vertexDraw_, world.vertexDraw, "the scene's vertices");
+    up(draws_, world.draws, "the scene's placements");
+    up(index_, world.index, "the scene's triangles");
+    up(triangleMaterial_, world.triangleMaterial, "the scene's triangles");
+    up(materials_, world.materials, "the materials");
+    up(lobes_, world.lobes, "the materials");
+    up(tables_, world.tables, "the coats' tables");
+    up(lights_, world.lights, "the lights");
+    up(spectra_, plan_.terms.spectra, "the terms' spectra");
+    up(previewSpectra_, plan_.terms.preview, "the terms' colours");
+    camera_.reserve(device_, size_t{3} * vertices_, "the transformed vertices");
+    cameraNormal_.reserve(device_, size_t{3} * vertices_, "the transformed normals");
+    screen_.reserve(device_, vertices_, "the transformed vertices");
+    largeList_.reserve(device_, triangles_, "the lists of triangles");
+    clipList_.reserve(device_, triangles_, "the lists of triangles");
+    counters_.reserve(device_, 4, "the counters");
+    records_.reserve(device_, 1, "the large triangles");
+    tileList_.reserve(device_, 1, "the lists of tiles");
+    image_.term.reserve(device_, 1, "the term image");
+    image_.g.reserve(device_, SD_BLOCK, "the term image");
+}
+
+void Stages::transform() {
+    transform_.set("position", position_.buffer())
+        .set("normal", normal_.buffer())
+        .set("draw", vertexDraw_.buffer())
+        .set("draws", draws_.buffer())
+        .set("frame", frame_)
+        .set("count", vertices_)
+        .set("camera", camera_.buffer())
+        .set("camera_normal", cameraNormal_.buffer())
+        .set("screen", screen_.buffer())
+        .run(vertices_, 64);
+}
+
+std::uint32_t Stages::readNumber(const cl::Buffer& buffer, size_t index) {
+    std::uint32_t number = 0;
+    checked(device_.body(), "reading a count", [&] {
+        device_.body().queue.enqueueReadBuffer(buffer, CL_TRUE, index * sizeof number, sizeof number, &number);
+    });
+    return number;
+}
+
+void Stages::zero(const cl::Buffer& buffer, size_t words) {
+    checked(device_.body(), "clearing counts", [&] {
+        device_.body().queue.enqueueFillBuffer(buffer, cl_uint{0}, 0, words * sizeof(cl_uint));
+    });
+}
+
+void Stages::cover() {
+    const size_t keyCount = static_cast<size_t>(frame_.rows) * static_cast<size_t>(frame_.pitch) * (slotX_.capacity());
+    keys_.reserve(device_, keyCount, "the samples of a strip");
+    clear_.set("keys", keys_.buffer()).set("count", static_cast<cl_ulong>(keyCount)).run((keyCount + 15) / 16, 64);
+    if (triangles_ == 0) return;
+    zero(counters_.buffer(), 4);
+    small_.set("index", index_.buffer())
+        .set("screen", screen_.buffer())
+        .set("triangles", triangles_)
+        .set("frame", frame_)
+        .set("sample_x", slotX_.buffer())
+        .set("sample_y", slotY_.buffer())
+        .set("keys", keys_.buffer())
+        .set("large", largeList_.buffer())
+        .set("clip", clipList_.buffer())
+        .set("counters", counters_.buffer())
+        .run(triangles_, 64);
+    const std::uint32_t large = readNumber(counters_.buffer(), 0), clipped = readNumber(counters_.buffer(), 1);
+    if (large + clipped > 0) coverLarge(large, clipped);
+}
+
+void Stages::coverLarge(std::uint32_t large, std::uint32_t clipped) {
+    constexpr std::uint32_t pieces = 6;  // of a triangle cut by five planes
+    const std::uint32_t capacity = large + pieces * clipped;
+    records_.reserve(device_, capacity, "the large triangles");
+    std::uint32_t records = large;
+    setup_.set("index", index_.buffer())
+        .set("screen", screen_.buffer())
+        .set("large", largeList_.buffer())
+        .set("count", large)
+        .set("records", records_.buffer())
+        .run(large, 64);
+    if (clipped > 0) {
+        checked(device_.body(), "counting pieces", [&] {
+            device_.body().queue.enqueueFillBuffer(counters_.buffer(), cl_uint{large}, 0, sizeof(cl_uint));
+        });
+        clip_.set("index", index_.buffer())
+            .set("camera", camera_.buffer())
+            .set("clip", clipList_.buffer())
+            .set("count", clipped)
+            .set("frame", frame_)
+            .set("capacity", capacity)
+            .set("records", records_.buffer())
+            .set("used", counters_.buffer())
+            .run(clipped, 16);
+        records = std::min(capacity, readNumber(counters_.buffer(), 0));
+    }
+    if (records == 0) return;
+    const int tile = 1 << frame_.tile_shift;
+    frame_.tiles_x = (frame_.pitch + tile - 1) / tile;
+    frame_.tiles_y = (frame_.rows + tile - 1) / tile;
+    const auto tiles = static_cast<std::uint32_t>(frame_.tiles_x * frame_.tiles_y);
+    tileCounts_.reserve(device_, tiles, "the tiles");
+    tileFirst_.reserve(device_, tiles + 1, "the tiles");
+    zero(tileCounts_.buffer(), tiles);
+    count_.set("records", records_.buffer())
+        .set("count", records)
+        .set("frame", frame_)
+        .set("tile_counts", tileCounts_.buffer())
+        .run(records, 16);
+    scan_.set("numbers", tileCounts_.buffer()).set("count", tiles).set("sums", tileFirst_.buffer()).run(1);
+    tileList_.reserve(device_, readNumber(tileFirst_.buffer(), tiles), "the lists of tiles");
+    deal_.set("records", records_.buffer())
+        .set("count", records)
+        .set("frame", frame_)
+        .set("tile_first", tileFirst_.buffer())
+        .set("tile_counts", tileCounts_.buffer())
+        .set("tile_list", tileList_.buffer())
+        .run(records, 16);
+    tiles_.set("records", records_.buffer())
+        .set("tile_first", tileFirst_.buffer())
+        .set("tile_list", tileList_.buffer())
+        .set("frame", frame_)
+        .set("pattern_x", laneX_.buffer())
+        .set("pattern_y", laneY_.buffer())
+        .set("keys", keys_.buffer())
+        .run(tiles);
+}
+
+bool Stages::light(int firstRow, int rows) {
+    frame_.first_row = firstRow;
+    frame_.rows = rows;
+    cover();
+
+    image_.firstRow = firstRow;
+    image_.rows = rows;
+    image_.blocks = static_cast<std::uint32_t>(rows * (frame_.pitch / SD_BLOCK));
+    sets_.reserve(device_, size_t{image_.blocks} * words_, "the materials of blocks");
+    blockTerms_.reserve(device_, image_.blocks, "the term image");
+    image_.first.reserve(device_, image_.blocks + 1, "the term image");
+    find_.set("keys", keys_.buffer())
+        .set("triangle_material", triangleMaterial_.buffer())
+        .set("materials", materials_.buffer())
+        .set("frame", frame_)
+        .set("words", words_)
+        .set("blocks", image_.blocks)
+        .set("sets", sets_.buffer())
+        .set("block_terms", blockTerms_.buffer())
+        .run(image_.blocks, 16);
+    scanTerms_.set("numbers", blockTerms_.buffer()).set("count", image_.blocks).set("sums", image_.first.buffer()).run(1);
+    const size_t terms = readNumber(image_.first.buffer(), image_.blocks);
+    if (terms * SD_BLOCK * sizeof(float) > device_.info().maxAllocationBytes) return false;
+    image_.term.reserve(device_, terms, "the term image");
+    image_.g.reserve(device_, terms * SD_BLOCK, "the term image");
+    list_.set("materials", materials_.buffer())
+        .set("sets", sets_.buffer())
+        .set("words", words_)
+        .set("blocks", image_.blocks)
+        .set("block_first", image_.first.buffer())
+        .set("block_term", image_.term.buffer())
+        .run(image_.blocks, 16);
+    const bool scalar = device_.body().vectorWidth() == 1;
+    light_.set("keys", keys_.buffer())
+        .set("index", index_.buffer())
+        .set("camera", camera_.buffer())
+        .set("camera_normal", cameraNormal_.buffer())
+        .set("triangle_material", triangleMaterial_.buffer())
+        .set("materials", materials_.buffer())
+        .set("lobes", lobes_.buffer())
+        .set("tables", tables_.buffer())
+        .set("lights", lights_.buffer())
+        .set("light_count", static_cast<cl_uint>(plan_.world.lights.size()))
+        .set("frame", frame_)
+        .set("pattern_x", laneX_.buffer())
+        .set("pattern_y", laneY_.buffer())
+        .set("pattern_used", used_.buffer())
+        .set("words", words_)
+        .set("blocks", image_.blocks)
+        .set("sets", sets_.buffer())
+        .set("block_first", image_.first.buffer())
+        .set("g", image_.g.buffer())
+        .run(size_t{image_.blocks} * (scalar ? SD_BLOCK : 1), scalar ? SD_BLOCK : 1);
+    return true;
+}
+
+void Stages::expand(int from, int rows, DeviceArray<float>& cube, DeviceArray<float>& preview) {
+    const auto pitch = static_cast<size_t>(frame_.pitch), lines = static_cast<size_t>(rows);
+    const auto rowBlocks = static_cast<std::uint32_t>(frame_.pitch / SD_BLOCK);
+    const std::uint32_t blocks = rowBlocks * static_cast<std::uint32_t>(rows);
+    const bool scalar = device_.body().vectorWidth() == 1;
+    const auto run = [&](const DeviceArray<float>& spectra, size_t bands, DeviceArray<float>& out, const char* what) {
+        out.reserve(device_, lines * bands * pitch, what);
+        expand_.set("g", image_.g.buffer())
+            .set("block_first", image_.first.buffer())
+            .set("block_term", image_.term.buffer())
+            .set("spectra", spectra.buffer())
+            .set("bands", static_cast<cl_uint>(bands))
+            .set("frame", frame_)
+            .set("first_block", static_cast<cl_uint>(from) * rowBlocks)
+            .set("blocks", blocks)
+            .set("out", out.buffer())
+            .run(size_t{blocks} * (scalar ? SD_BLOCK : 1), scalar ? SD_BLOCK : 1);
+    };
+    run(spectra_, plan_.terms.bands, cube, "a strip of the image");
+    run(previewSpectra_, 3, preview, "a strip of the preview");
+}
+
+MappedFloats::MappedFloats(const Device& device, const cl::Buffer& buffer, size_t count) : device_(device), buffer_(buffer) {
+    data_ = static_cast<float*>(checked(device_.body(), "mapping a strip", [&] {
+        return device_.body().queue.enqueueMapBuffer(buffer_, CL_TRUE, CL_MAP_READ, 0, count * sizeof(float));
+    }));
+}
+
+MappedFloats::~MappedFloats() {
+    try {
+        device_.body().queue.enqueueUnmapMemObject(buffer_, data_);
+    } catch (const cl::Error&) {
+        return;  // the next call on the queue says what is wrong
+    }
+}
+
+}  // namespace spectrad

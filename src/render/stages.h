@@ -1,0 +1,84 @@
+// The stages on the device, one method each, over buffers that stay. Order: transform once, then for each strip light (coverage
+// and g: the term image) and expand (g · c).
+#pragma once
+
+#include "opencl/program.h"
+#include "render/plan.h"
+#include "render/samples.h"
+
+#include <cstdint>
+
+namespace spectrad {
+
+/// The term image of a strip on the device: blocks of SD_BLOCK pixels, each with its list of terms and their g.
+struct TermImage {
+    int firstRow = 0, rows = 0;
+    std::uint32_t blocks = 0;
+    DeviceArray<std::uint32_t> first;  ///< blocks + 1: where a block's terms start, in `term`; times SD_BLOCK, in `g`
+    DeviceArray<std::uint32_t> term;   ///< numbers into the term table
+    DeviceArray<float> g;              ///< SD_BLOCK a term
+};
+
+class Stages {
+  public:
+    /// Uploads the world and builds the kernels that the plan needs.
+    Stages(const Device& device, const Plan& plan, const LanePattern& lanes);
+
+    void transform();
+    /// Coverage and lighting of `rows` rows: fills the term image. False if it is too large for the device.
+    bool light(int firstRow, int rows);
+    /// Rows [from, from + rows) of the lit strip, into cube [row][band][pitch] and preview [row][3][pitch].
+    void expand(int from, int rows, DeviceArray<float>& cube, DeviceArray<float>& preview);
+
+    [[nodiscard]] int pitch() const { return frame_.pitch; }
+    [[nodiscard]] const TermImage& terms() const { return image_; }
+    [[nodiscard]] const DeviceArray<std::uint64_t>& keys() const { return keys_; }
+
+  private:
+    void uploadWorld();
+    void cover();
+    void coverLarge(std::uint32_t large, std::uint32_t clipped);
+    std::uint32_t readNumber(const cl::Buffer& buffer, size_t index);
+    void zero(const cl::Buffer& buffer, size_t words);
+
+    Device device_;
+    const Plan& plan_;
+    sd_frame frame_{};
+    std::uint32_t triangles_ = 0, vertices_ = 0, words_ = 1;
+
+    Program geometry_, shading_;
+    Kernel transform_, clear_, small_, setup_, clip_, count_, scan_, deal_, tiles_;
+    Kernel find_, scanTerms_, list_, light_, expand_;
+
+    DeviceArray<float> position_, normal_, camera_, cameraNormal_, spectra_, previewSpectra_;
+    DeviceArray<std::uint32_t> vertexDraw_, index_, triangleMaterial_;
+    DeviceArray<sd_draw> draws_;
+    DeviceArray<sd_vertex> screen_;
+    DeviceArray<sd_material> materials_;
+    DeviceArray<sd_lobe> lobes_;
+    DeviceArray<sd_albedo> tables_;
+    DeviceArray<sd_light> lights_;
+    DeviceArray<std::int32_t> slotX_, slotY_, laneX_, laneY_, used_;
+
+    DeviceArray<std::uint64_t> keys_;
+    DeviceArray<std::uint32_t> largeList_, clipList_, counters_, tileCounts_, tileFirst_, tileList_, sets_, blockTerms_;
+    DeviceArray<sd_large> records_;
+    TermImage image_;
+};
+
+/// Device memory seen by the host while this lives.
+class MappedFloats {
+  public:
+    MappedFloats(const Device& device, const cl::Buffer& buffer, size_t count);
+    ~MappedFloats();
+    MappedFloats(const MappedFloats&) = delete;
+    MappedFloats& operator=(const MappedFloats&) = delete;
+    [[nodiscard]] const float* data() const { return data_; }
+
+  private:
+    Device device_;
+    cl::Buffer buffer_;
+    float* data_ = nullptr;
+};
+
+}  // namespace spectrad

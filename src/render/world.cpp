@@ -1,0 +1,101 @@
+#include "render/world.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace spectrad {
+
+View makeView(const Camera& camera, const Affine& toWorld, int width, int height) {
+    const Affine place = toWorld * camera.toNode;
+    // Only where it stands and which way it looks: scale or shear on the way do not bend the picture.
+    const Vec3 back = normalized(place.direction({0, 0, 1})), up = place.direction({0, 1, 0});
+    const Vec3 eye = place.point({0, 0, 0});
+    View view;
+    view.orthographic = camera.orthographic;
+    view.width = width;
+    view.height = height;
+    view.worldToCamera = inverse(Affine::lookAt(eye, eye - back, up));
+    if (camera.orthographic)
+        view.pixelsPerSlope = height / (camera.viewHeight * length(up));
+    else
+        view.pixelsPerSlope = 0.5 * height / std::tan(camera.fovDegrees * std::numbers::pi / 360);
+    return view;
+}
+
+namespace {
+
+constexpr size_t most = 0xfffffffe;
+
+/// Largest factor by which the transform stretches a length.
+double stretch(const Affine& a) {
+    double largest = 0;
+    for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) largest = std::max(largest, length(a.direction(axis)));
+    return largest;
+}
+
+/// How far a shape's mesh may lie from its true surface, in the shape's units: a tenth of a pixel where it is nearest.
+double tolerance(const Shape& shape, const Affine& toWorld, const View& view) {
+    const double scale = stretch(toWorld), radius = boundingRadius(shape);
+    double pixel = 1 / view.pixelsPerSlope;  // orthographic: metres; perspective: metres at a depth of 1 m
+    if (!view.orthographic) {
+        const double distance = length(view.worldToCamera.point(toWorld.point({0, 0, 0}))) - radius * scale;
+        pixel *= std::max(distance, 0.01 * radius * scale);
+    }
+    return std::max(0.1 * pixel / scale, 1e-7 * radius);
+}
+
+void addDraw(World& world, const Affine& toWorld, const View& view) {
+    const Affine to = view.worldToCamera * toWorld;
+    sd_draw draw{};
+    std::copy(to.m.begin(), to.m.end(), draw.to_camera);
+    // Cofactors take normals along; their sign follows the determinant's, so mirrored objects keep their outside. Scaled to
+    // stay in float's range whatever the lengths.
+    const auto& m = to.m;
+    const std::array<double, 9> cofactor{m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
+                                         m[2] * m[9] - m[1] * m[10], m[0] * m[10] - m[2] * m[8], m[1] * m[8] - m[0] * m[9],
+                                         m[1] * m[6] - m[2] * m[5], m[2] * m[4] - m[0] * m[6], m[0] * m[5] - m[1] * m[4]};
+    double largest = 0;
+    for (double c : cofactor) largest = std::max(largest, std::abs(c));
+    const double scale = (to.determinant() < 0 ? -1 : 1) / (largest > 0 ? largest : 1);
+    for (size_t i = 0; i < 9; ++i) draw.normal[i] = static_cast<float>(cofactor[i] * scale);
+    world.draws.push_back(draw);
+}
+
+void addMesh(World& world, const Mesh& mesh, const Affine& toWorld, const View& view, std::uint32_t material) {
+    if (mesh.index.empty()) return;
+    const size_t first = world.vertexDraw.size();
+    if (first + mesh.position.size() > most || world.index.size() / 3 + mesh.triangles() > most)
+        throw InputError("the scene has more than " + std::to_string(most) + " triangles or vertices");
+    addDraw(world, toWorld * Affine::translation(mesh.origin), view);
+    const auto draw = static_cast<std::uint32_t>(world.draws.size() - 1);
+    const Mesh* source = &mesh;
+    Mesh smoothed;
+    if (mesh.normal.empty()) {
+        smoothed = withNormals(mesh, Normals::smooth);
+        source = &smoothed;
+    }
+    for (const auto& p : source->position) world.position.insert(world.position.end(), p.begin(), p.end());
+    for (const auto& n : source->normal) world.normal.insert(world.normal.end(), n.begin(), n.end());
+    world.vertexDraw.insert(world.vertexDraw.end(), source->position.size(), draw);
+    world.index.reserve(world.index.size() + source->index.size());
+    for (std::uint32_t i : source->index) world.index.push_back(static_cast<std::uint32_t>(first) + i);
+    world.triangleMaterial.insert(world.triangleMaterial.end(), source->triangles(), material);
+}
+
+}  // namespace
+
+void addGeometry(World& world, const FlatScene& scene, const View& view, const std::vector<std::uint32_t>& materialNumber) {
+    for (const FlatScene::Object& object : scene.objects) {
+        for (const ShapeUse& use : object.node->shapes)
+            addMesh(world, tessellate(use.shape, tolerance(use.shape, object.toWorld, view)), object.toWorld, view,
+                    materialNumber[use.material]);
+        for (const MeshUse& use : object.node->meshes)
+            addMesh(world, *use.mesh, object.toWorld, view, materialNumber[use.material]);
+    }
+}
+
+}  // namespace spectrad
