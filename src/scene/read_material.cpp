@@ -1,0 +1,123 @@
+// <material> and its lobes. What cannot be rendered yet is read and checked all the same: the plan refuses
+// it, not we.
+#include "base/text.h"
+#include "scene/reading.h"
+
+#include <fmt/format.h>
+
+namespace spectrad {
+
+namespace {
+
+TextureUse readTexture(Reading& reading, const Element& element) {
+    TextureUse use;
+    use.where = element.where("texture");
+    use.source = element.text("texture");
+    if (!startsWith(use.source, "pass:")) use.source = reading.file(element, "texture").string();
+    return use;
+}
+
+Diffuse readDiffuse(Reading& reading, const Element& element) {
+    if (element.has("reflectance") == element.has("texture"))
+        element.fail(element.has("texture") ? "has both 'reflectance' and 'texture' (one is allowed)"
+                                            : "needs the attribute 'reflectance' or 'texture'");
+    Diffuse diffuse;
+    if (element.has("texture")) {
+        diffuse.texture = readTexture(reading, element);
+    } else {
+        diffuse.reflectance = reading.spectrum(element, "reflectance", Role::reflectance);
+    }
+    diffuse.roughnessDegrees = element.number("roughness", 0, {0, 90, true, true});
+    return diffuse;
+}
+
+/// An index of refraction; `curves` is 1 for a dielectric (n), 2 for a metal (n, k). A plain number is a
+/// constant n.
+Spectrum readIndex(Reading& reading, const Element& element, size_t curves) {
+    const std::string text = element.text("ior");
+    Spectrum index = parseDouble(text)
+                         ? reading.resolver.resolve("constant:" + text, Role::index, element.where("ior"))
+                         : reading.spectrum(element, "ior", Role::index);
+    if (index.curves.size() != curves)
+        element.fail(
+            "ior",
+            curves == 2
+                ? "a conductor needs two columns, n and k (allowed: metals/..., or a file with them)"
+                : fmt::format("a coat needs n alone, this has {} columns (for n and k use <conductor>)",
+                              index.curves.size()));
+    return index;
+}
+
+Fluorescence readFluorescence(Reading& reading, const Element& element) {
+    Fluorescence result;
+    result.where = element.where();
+    if (element.has("matrix")) {
+        for (const char* attribute :
+             {"excitation", "emission", "yield", "strength", "emission-unit", "anti-stokes"})
+            element.refuse(attribute, "cannot stand beside 'matrix'");
+        result.matrixFile = reading.file(element, "matrix").string();
+        result.diagonalNone =
+            element.choice<bool>("diagonal", {{"reflectance", false}, {"none", true}}, false);
+        return result;
+    }
+    element.refuse("diagonal", "stands only beside 'matrix'");
+    if (!element.has("excitation") || !element.has("emission"))
+        element.fail("needs the attributes 'excitation' and 'emission', or 'matrix'");
+    result.excitation = reading.spectrum(element, "excitation", Role::excitation);
+    result.emission = reading.spectrum(element, "emission", Role::emission);
+    result.yield = element.number("yield", 1, zeroToOne);
+    result.strength = element.number("strength", 1, zeroToOne);
+    result.emissionInPhotons =
+        element.choice<bool>("emission-unit", {{"energy", false}, {"photons", true}}, false);
+    result.antiStokes = element.boolean("anti-stokes", false);
+    return result;
+}
+
+Material readMaterial(Reading& reading, const Element& element) {
+    Material material;
+    material.name = element.text("name");
+    material.where = element.where();
+    for (const pugi::xml_node node : element.node().children()) {
+        const Element lobe(reading.document, node);
+        const std::string_view kind = lobe.name();
+        if (kind == "diffuse") {
+            material.diffuse = readDiffuse(reading, lobe);
+        } else if (kind == "gloss") {
+            material.gloss = {readIndex(reading, lobe, 1), lobe.number("roughness", 0, zeroToOne)};
+        } else if (kind == "specular") {
+            material.specular = {reading.spectrum(lobe, "reflectance", Role::reflectance),
+                                 lobe.number("roughness", 0, zeroToOne)};
+        } else if (kind == "conductor") {
+            material.conductor = {readIndex(reading, lobe, 2), lobe.number("roughness", 0, zeroToOne),
+                                  lobe.choice<bool>("fresnel", {{"exact", false}, {"schlick", true}}, false)};
+        } else if (kind == "fluorescence") {
+            material.fluorescence.push_back(readFluorescence(reading, lobe));
+        } else {
+            material.emission = readEmitter(reading, lobe, SourceKind::radiance, "an emission");
+        }
+    }
+    if (element.node().first_child().empty())
+        reading.notes.warn(material.where,
+                           fmt::format("material '{}' has no lobe: it is black", material.name));
+    for (const Fluorescence& fluorescence : material.fluorescence)
+        if (material.diffuse && !fluorescence.matrixFile.empty() && !fluorescence.diagonalNone)
+            throw InputError(
+                fluorescence.where,
+                "the matrix holds the reflectance in its diagonal, so <diffuse> cannot stand beside "
+                "it (diagonal=\"none\" where it holds none)");
+    return material;
+}
+
+}  // namespace
+
+void readMaterials(Reading& reading) {
+    for (const pugi::xml_node node : reading.document.root().children("material")) {
+        const Element element(reading.document, node);
+        const Index index = static_cast<Index>(reading.scene.materials.size());
+        reading.materials.add(element.text("name"), index, element.where());
+        reading.scene.materials.push_back(readMaterial(reading, element));
+    }
+    reading.materialUsed.assign(reading.scene.materials.size(), false);
+}
+
+}  // namespace spectrad

@@ -1,0 +1,133 @@
+// <spectrum>: a name for a value, for a table in the scene, or for a file.
+#include "base/text.h"
+#include "scene/reading.h"
+#include "spectrum/readers/reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace spectrad {
+
+namespace {
+
+Role roleOf(Quantity quantity) {
+    switch (quantity) {
+        case Quantity::reflectance:
+            return Role::reflectance;
+        case Quantity::transmittance:
+            return Role::transmittance;
+        case Quantity::radiance:
+        case Quantity::irradiance:
+        case Quantity::intensity:
+        case Quantity::power:
+            return Role::light;
+        case Quantity::sensitivity:
+            return Role::detector;
+        case Quantity::index:
+            return Role::index;
+        default:
+            return Role::any;
+    }
+}
+
+/// Pairs "400:0.1 500:0.2" or two columns, from the element's body.
+Spectrum readBody(const Element& element, const std::string& body) {
+    const SourceLocation where = element.whereBody();
+    // As many empty lines in front as the scene has: errors then name the scene's own line.
+    const bool pairs = body.find(':') != std::string::npos;
+    const SpectrumTable table =
+        pairs ? readPairs(body, where)
+              : readColumns(std::string(static_cast<size_t>(where.line - 1), '\n') + body, where.file);
+    if (table.columns.size() != 1)
+        element.fail(
+            fmt::format("holds {} columns (expected two, wavelength in nm and value, or pairs as in 400:0.1)",
+                        table.columns.size() + 1));
+    Spectrum spectrum;
+    spectrum.channels = {"value"};
+    spectrum.curves = {Curve::table(table.nm, table.columns.front())};
+    return spectrum;
+}
+
+/// The quantity that the element states must be the data's own, where they state one and mean it absolutely.
+void stateQuantity(const Element& element, Spectrum& spectrum) {
+    if (!element.has("quantity")) return;
+    const Quantity stated = parseQuantity(element.text("quantity"), element.where("quantity"));
+    const bool bothLight = roleOf(stated) == Role::light && roleOf(spectrum.quantity) == Role::light;
+    if (spectrum.quantity != Quantity::unknown && spectrum.quantity != stated &&
+        !(bothLight && spectrum.relative))
+        element.fail("quantity", fmt::format("the data are of quantity {}", name(spectrum.quantity)));
+    spectrum.quantity = stated;
+}
+
+void readSpectrum(Reading& reading, const Element& element) {
+    const std::string body = element.body();
+    const bool hasBody = !trimmed(body).empty();
+    const int ways = int(element.has("value")) + int(element.has("file")) + int(hasBody);
+    if (ways != 1)
+        element.fail(ways == 0 ? "has no data (allowed: value=, file=, or pairs or two columns in its body)"
+                               : "has its data twice (allowed: one of value=, file=, body)");
+    if (!element.has("file")) element.refuse("column", "stands only beside 'file'");
+
+    Spectrum spectrum;
+    if (element.has("value")) {
+        spectrum = reading.resolver.resolve(element.text("value"), Role::any, element.where("value"));
+    } else if (hasBody) {
+        spectrum = readBody(element, body);
+    } else {
+        spectrum = reading.resolver.resolveFile(element.text("file"), element.text("column"), Role::any,
+                                                element.where("file"));
+    }
+    for (const std::filesystem::path& file : spectrum.files)
+        reading.files.add(file);
+    spectrum.text = element.text("name");
+    stateQuantity(element, spectrum);
+    spectrum.relative = element.boolean("relative", spectrum.relative);
+    spectrum = reading.resolver.checked(std::move(spectrum), roleOf(spectrum.quantity), element.where());
+    reading.resolver.define(element.text("name"), std::move(spectrum), element.where());
+}
+
+}  // namespace
+
+void readSpectra(Reading& reading) {
+    enum class State { waiting, open, done };
+    struct Entry {
+        Element element;
+        State state = State::waiting;
+    };
+    std::vector<Entry> entries;
+    std::unordered_map<std::string, size_t> byName;
+    for (const pugi::xml_node node : reading.document.root().children("spectrum")) {
+        entries.push_back({Element(reading.document, node)});
+        byName.try_emplace(entries.back().element.text("name"),
+                           entries.size() - 1);  // a second one: define() refuses it
+    }
+
+    // value="other" wants the other first: follow the names to one that waits for none, then come back.
+    for (size_t first = 0; first < entries.size(); ++first) {
+        std::vector<size_t> chain;
+        for (size_t at = first; entries[at].state == State::waiting;) {
+            entries[at].state = State::open;
+            chain.push_back(at);
+            const auto wanted = byName.find(entries[at].element.text("value"));
+            if (wanted == byName.end() || wanted->second == at) break;
+            at = wanted->second;
+            if (entries[at].state == State::open) {
+                std::vector<std::string> names;
+                for (const size_t link : chain)
+                    names.push_back(entries[link].element.text("name"));
+                names.push_back(entries[at].element.text("name"));
+                entries[first].element.fail(
+                    fmt::format("defines itself by itself: {}", fmt::join(names, " -> ")));
+            }
+        }
+        for (; !chain.empty(); chain.pop_back()) {
+            readSpectrum(reading, entries[chain.back()].element);
+            entries[chain.back()].state = State::done;
+        }
+    }
+}
+
+}  // namespace spectrad
