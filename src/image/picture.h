@@ -1,4 +1,4 @@
-// Pictures for people: 8- and 16-bit PNG, and float EXR of a detector's own channels.
+// Pictures for people: 8-bit PNG, and float EXR of a detector's own channels.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,17 @@ struct Picture8 {
     std::vector<std::uint8_t> pixels;         ///< interleaved, row 0 on top
 };
 
-/// Whole or not at all; `text` becomes tEXt chunks. Marks RGB pictures as sRGB unless `srgb` is false.
-void writePng(const std::filesystem::path& target, const Picture8& picture, const std::map<std::string, std::string>& text = {},
-              bool srgb = true);
+/// Whole or not at all; `text` becomes tEXt chunks (iTXt where it is not ASCII). Marks RGB pictures as sRGB
+/// unless `srgb` is false.
+void writePng(const std::filesystem::path& target, const Picture8& picture,
+              const std::map<std::string, std::string>& text = {}, bool srgb = true);
+/// As grey, RGB or RGBA, whatever the file's own form; 16-bit files are rounded. Throws InputError.
 [[nodiscard]] Picture8 readPng(const std::filesystem::path& path);
 
-/// Float channels, planes[channel][y * width + x], with string attributes.
-void writeChannelsExr(const std::filesystem::path& target, int width, int height, const std::vector<std::string>& names,
-                      const std::vector<std::vector<float>>& planes, const std::map<std::string, std::string>& attributes);
+/// Float channels, planes[channel][y * width + x], with string attributes; whole or not at all. Throws
+/// InputError for a value that is not finite.
+void writeChannelsExr(const std::filesystem::path& target, int width, int height,
+                      const std::vector<std::string>& names, const std::vector<std::vector<float>>& planes,
+                      const std::map<std::string, std::string>& attributes);
 
 }  // namespace spectrad

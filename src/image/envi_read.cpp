@@ -1,0 +1,218 @@
+#include "image/envi_read.h"
+
+#include "base/files.h"
+#include "base/text.h"
+#include "image/cube_check.h"
+#include "image/envi_header.h"
+#include "image/envi_raster.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+namespace spectrad {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uintmax_t largestHeader = 64u << 20;  // bytes
+
+bool startsLikeEnvi(const fs::path& path) {
+    std::array<char, 7> start{};  // after a byte order mark, perhaps
+    std::ifstream file(path, std::ios::binary);
+    file.read(start.data(), start.size());
+    std::string_view text(start.data(), static_cast<size_t>(file.gcount()));
+    if (startsWith(text, "\xef\xbb\xbf")) text.remove_prefix(3);
+    return startsWith(text, "ENVI");
+}
+
+bool isFile(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
+fs::path findEnviData(const fs::path& path, const fs::path& header) {
+    if (path != header) return path;
+    const fs::path stem = fs::path(header).replace_extension();  // of x.img.hdr: x.img
+    if (isFile(stem)) return stem;
+    for (const char* extension :
+         {".img", ".dat", ".raw", ".bsq", ".bil", ".bip", ".IMG", ".DAT", ".RAW", ".BSQ", ".BIL", ".BIP"})
+        if (const fs::path data = stem.string() + extension; isFile(data)) return data;
+    throw InputError(
+        {header.string()},
+        "has no data file beside it (allowed: no extension, .img, .dat, .raw, .bsq, .bil, .bip)");
+}
+
+/// One stored value as double. Every ENVI type but the 64-bit integers is exact in it.
+template <typename Stored>
+double stored(const char* bytes, bool swap) {
+    std::array<char, sizeof(Stored)> raw;
+    std::memcpy(raw.data(), bytes, raw.size());
+    if (swap) std::reverse(raw.begin(), raw.end());
+    return static_cast<double>(std::bit_cast<Stored>(raw));
+}
+
+using Decoder = double (*)(const char*, bool);
+
+Decoder decoderOf(int dataType) {
+    switch (dataType) {
+        case 1:
+            return stored<std::uint8_t>;
+        case 2:
+            return stored<std::int16_t>;
+        case 3:
+            return stored<std::int32_t>;
+        case 5:
+            return stored<double>;
+        case 12:
+            return stored<std::uint16_t>;
+        case 13:
+            return stored<std::uint32_t>;
+        case 14:
+            return stored<std::int64_t>;
+        case 15:
+            return stored<std::uint64_t>;
+        default:
+            return stored<float>;
+    }
+}
+
+/// Reads the values line by line in the file's own order and puts each in its place.
+class Loader {
+  public:
+    Loader(const envi::Raster& raster, const fs::path& data)
+        : raster_(raster),
+          path_(data),
+          bands_(raster.bandOrder.size()),
+          decode_(decoderOf(raster.dataType)),
+          size_(static_cast<size_t>(*envi::bytesOfType(raster.dataType))),
+          swap_(raster.bigEndian != (std::endian::native == std::endian::big)) {}
+
+    Cube load(Notes& notes) {
+        cube_.info = raster_.info;
+        const size_t count = checkedValueCount(cube_.info, path_);
+        checkFileSize(count);
+        std::ifstream file(path_, std::ios::binary);
+        if (!file) throw InputError({path_.string()}, "cannot be read");
+        file.seekg(static_cast<std::streamoff>(raster_.offset));
+        cube_.values.resize(count);
+        const int height = cube_.info.height, bands = static_cast<int>(bands_);
+        const size_t width = static_cast<size_t>(cube_.info.width);
+        switch (raster_.interleave) {
+            case envi::Interleave::bsq:
+                for (int b = 0; b < bands; ++b)
+                    for (int y = 0; y < height; ++y)
+                        takeBandLine(file, y, static_cast<size_t>(b));
+                break;
+            case envi::Interleave::bil:
+                for (int y = 0; y < height; ++y)
+                    for (int b = 0; b < bands; ++b)
+                        takeBandLine(file, y, static_cast<size_t>(b));
+                break;
+            case envi::Interleave::bip:
+                for (int y = 0; y < height; ++y) {
+                    takeBytes(file, width * bands_);
+                    for (size_t x = 0; x < width; ++x)
+                        for (size_t b = 0; b < bands_; ++b)
+                            put(line_.data() + (x * bands_ + b) * size_, x, y, b);
+                }
+                break;
+        }
+        if (ignoredCount_ > 0)
+            notes.warn({path_.string()},
+                       fmt::format("{} values are marked as no data; read as 0", ignoredCount_));
+        return std::move(cube_);
+    }
+
+  private:
+    void checkFileSize(size_t count) const {
+        std::error_code error;
+        const std::uintmax_t size = fs::file_size(path_, error), needed = count * size_;
+        if (error) throw InputError({path_.string()}, "cannot be read: " + error.message());
+        if (size < raster_.offset || size - raster_.offset < needed)
+            throw InputError({path_.string()}, fmt::format("{} bytes, where its header calls for {} + {}",
+                                                           size, raster_.offset, needed));
+    }
+
+    void takeBytes(std::ifstream& file, size_t values) {
+        line_.resize(values * size_);
+        if (!file.read(line_.data(), static_cast<std::streamsize>(line_.size())))
+            throw InputError({path_.string()}, "cannot be read to its end");
+    }
+
+    void takeBandLine(std::ifstream& file, int y, size_t fileBand) {
+        const size_t width = static_cast<size_t>(cube_.info.width);
+        takeBytes(file, width);
+        for (size_t x = 0; x < width; ++x)
+            put(line_.data() + x * size_, x, y, fileBand);
+    }
+
+    void put(const char* bytes, size_t x, int y, size_t fileBand) {
+        double value = decode_(bytes, swap_);
+        const size_t band = raster_.bandOrder[fileBand];
+        if (raster_.ignored &&
+            (value == *raster_.ignored || (std::isnan(value) && std::isnan(*raster_.ignored)))) {
+            ++ignoredCount_;
+            value = 0;
+        } else {
+            value = (value * raster_.gains[fileBand] + raster_.offsets[fileBand]) * raster_.scale;
+        }
+        if (!(std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max())))
+            throw InputError({path_.string()},
+                             fmt::format("{} is {} (allowed: values within the range of float)",
+                                         placeInCube(cube_.info, static_cast<int>(x), y, band), value));
+        const size_t width = static_cast<size_t>(cube_.info.width);
+        cube_.values[(static_cast<size_t>(y) * bands_ + band) * width + x] = static_cast<float>(value);
+    }
+
+    const envi::Raster& raster_;
+    fs::path path_;
+    size_t bands_;
+    Decoder decode_;
+    size_t size_;  ///< bytes a value
+    bool swap_;
+    Cube cube_;
+    std::vector<char> line_;
+    std::uint64_t ignoredCount_ = 0;
+};
+
+struct Opened {
+    fs::path header;
+    envi::Raster raster;
+};
+
+Opened openEnvi(const fs::path& path, Notes& notes) {
+    const auto header = findEnviHeader(path);
+    if (!header) throw InputError({path.string()}, "has no ENVI header beside it");
+    return {*header,
+            envi::rasterFrom(envi::Header::parse(readFile(*header, largestHeader), *header), *header, notes)};
+}
+
+}  // namespace
+
+std::optional<fs::path> findEnviHeader(const fs::path& path) {
+    if (isFile(path) && startsLikeEnvi(path)) return path;
+    for (const fs::path& candidate :
+         {fs::path(path.string() + ".hdr"), fs::path(path).replace_extension(".hdr"),
+          fs::path(path).replace_extension(".HDR")})
+        if (isFile(candidate) && startsLikeEnvi(candidate)) return candidate;
+    return std::nullopt;
+}
+
+CubeInfo readEnviInfo(const fs::path& path, Notes& notes) {
+    return openEnvi(path, notes).raster.info;
+}
+
+Cube readEnvi(const fs::path& path, Notes& notes) {
+    const Opened opened = openEnvi(path, notes);
+    return Loader(opened.raster, findEnviData(path, opened.header)).load(notes);
+}
+
+}  // namespace spectrad

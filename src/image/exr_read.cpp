@@ -1,0 +1,119 @@
+#include "image/exr_read.h"
+
+#include "image/cube_check.h"
+#include "image/exr_bands.h"
+#include "image/exr_layout.h"
+#include "image/exr_sink.h"
+
+#include <ImfFrameBuffer.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfPartType.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <new>
+
+namespace spectrad {
+
+namespace {
+
+/// Runs `read` and turns what OpenEXR throws at damaged files into one line.
+template <typename Read>
+auto readingExr(const std::filesystem::path& path, Read read) {
+    try {
+        return read();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw InputError({path.string()}, "damaged, or more than the memory of this machine holds");
+    } catch (const std::exception& error) {
+        std::string words = error.what();
+        std::replace(words.begin(), words.end(), '\n', ' ');
+        throw InputError({path.string()}, "cannot be read as EXR: " + words);
+    }
+}
+
+/// A part with bands, opened for reading.
+struct SpectralPart {
+    int index = 0;
+    ExrBands bands;
+    CubeInfo info;
+};
+
+std::string someChannels(const Imf::ChannelList& channels) {
+    std::string list;
+    int count = 0;
+    constexpr int most = 8;
+    for (auto it = channels.begin(); it != channels.end(); ++it)
+        if (count++ < most) list += (list.empty() ? "" : ", ") + std::string(it.name());
+    return count > most ? fmt::format("{}, … ({} in all)", list, count) : list;
+}
+
+/// The first part that has bands.
+SpectralPart findPart(const Imf::MultiPartInputFile& file, const std::filesystem::path& path, Notes& notes) {
+    for (int p = 0; p < file.parts(); ++p) {
+        const Imf::Header& header = file.header(p);
+        if (header.hasType() && !Imf::isImage(header.type())) continue;  // deep parts hold no image
+        SpectralPart part{p, findBands(header.channels(), path, notes), {}};
+        if (part.bands.names.empty()) continue;
+        part.info = cubeInfoFrom(header, part.bands.emissive, part.bands.nm, path, notes);
+        checkCubeInfo(part.info, path);
+        return part;
+    }
+    throw InputError({path.string()},
+                     "has no spectral channels (S0.<wavelength>nm or T.<wavelength>nm); its channels are " +
+                         someChannels(file.header(0).channels()));
+}
+
+Imf::MultiPartInputFile openExr(const std::filesystem::path& path) {
+    if (!std::ifstream(path, std::ios::binary)) throw InputError({path.string()}, "cannot be read");
+    // A file without its table of chunks is incomplete: no reconstruction from what can be found.
+    return Imf::MultiPartInputFile(path.c_str(), exrThreads(), false);
+}
+
+}  // namespace
+
+bool startsLikeExr(const std::filesystem::path& path) {
+    static constexpr std::array<char, 4> magic{0x76, 0x2f, 0x31, 0x01};
+    std::array<char, 4> start{};
+    std::ifstream file(path, std::ios::binary);
+    return file.read(start.data(), start.size()) && start == magic;
+}
+
+CubeInfo readExrInfo(const std::filesystem::path& path, Notes& notes) {
+    return readingExr(path, [&] { return findPart(openExr(path), path, notes).info; });
+}
+
+Cube readExr(const std::filesystem::path& path, Notes& notes) {
+    return readingExr(path, [&] {
+        Imf::MultiPartInputFile file = openExr(path);
+        const SpectralPart part = findPart(file, path, notes);
+        if (!file.partComplete(part.index))
+            throw InputError({path.string()}, "incomplete: its writing was interrupted");
+        const size_t count = checkedValueCount(part.info, path);
+        // No compression of EXR makes more than some 1000 bytes of one; a damaged header claims more.
+        constexpr std::uintmax_t largestRatio = 4096;
+        if (const auto size = std::filesystem::file_size(path); count * 2 > size * largestRatio)
+            throw InputError({path.string()},
+                             fmt::format("damaged: {} values cannot be in {} bytes", count, size));
+
+        Cube cube{part.info, std::vector<float>(count)};
+        Imf::InputPart input(file, part.index);
+        const Imath::Box2i window = input.header().dataWindow();
+        const size_t rowBytes =
+            sizeof(float) * part.bands.names.size() * static_cast<size_t>(cube.info.width);
+        Imf::FrameBuffer frame;
+        for (size_t b = 0; b < part.bands.names.size(); ++b)
+            frame.insert(part.bands.names[b],  // OpenEXR turns half and uint into float
+                         Imf::Slice::Make(Imf::FLOAT, cube.row(0, b), window, sizeof(float), rowBytes));
+        input.setFrameBuffer(frame);
+        input.readPixels(window.min.y, window.max.y);
+        checkFinite(cube.info, 0, cube.info.height, cube.values.data(), path);
+        return cube;
+    });
+}
+
+}  // namespace spectrad

@@ -1,0 +1,145 @@
+#include "base/error.h"
+#include "base/files.h"
+#include "image/picture.h"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <algorithm>
+#include <csetjmp>
+
+namespace spectrad {
+
+namespace {
+
+constexpr size_t longestKeyword = 79;  // of a PNG text
+
+/// What libpng is given while it writes; its errors jump out of C code, so nothing in here is made or grown
+/// on that way but the bytes, whose growth is guarded.
+struct PngOutput {
+    std::string bytes;
+    std::string error;
+};
+
+void appendBytes(png_structp png, png_bytep data, size_t count) {
+    auto& output = *static_cast<PngOutput*>(png_get_io_ptr(png));
+    bool appended = true;
+    try {
+        output.bytes.append(reinterpret_cast<const char*>(data), count);
+    } catch (const std::bad_alloc&) {
+        appended = false;
+    }
+    if (!appended) png_error(png, "out of memory");
+}
+
+void keepError(png_structp png, png_const_charp message) {
+    static_cast<PngOutput*>(png_get_error_ptr(png))->error = message;
+    png_longjmp(png, 1);
+}
+
+void ignoreWarning(png_structp, png_const_charp) {}
+
+/// False after an error. Holds no object with a destructor: libpng leaves it by longjmp.
+bool encode(png_structp png, png_infop head, const Picture8& picture, png_bytepp rows, png_textp texts,
+            int textCount, bool srgb) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    const int type = picture.channels == 1   ? PNG_COLOR_TYPE_GRAY
+                     : picture.channels == 3 ? PNG_COLOR_TYPE_RGB
+                                             : PNG_COLOR_TYPE_RGB_ALPHA;
+    png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
+    png_set_IHDR(png, head, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height),
+                 8, type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (srgb) png_set_sRGB(png, head, PNG_sRGB_INTENT_RELATIVE);
+    if (textCount > 0) png_set_text(png, head, texts, textCount);
+    png_set_rows(png, head, rows);
+    png_write_png(png, head, PNG_TRANSFORM_IDENTITY, nullptr);
+    return true;
+}
+
+bool isAscii(const std::string& text) {
+    return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 128; });
+}
+
+std::vector<png_text> pngTexts(const std::map<std::string, std::string>& text, const SourceLocation& where) {
+    std::vector<png_text> texts;
+    for (const auto& [key, value] : text) {
+        if (key.empty() || key.size() > longestKeyword || !isAscii(key))
+            throw InputError(
+                where, fmt::format("'{}' cannot name a text of a PNG (allowed: 1 to {} ASCII characters)",
+                                   key, longestKeyword));
+        png_text entry{};
+        entry.compression = isAscii(value) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
+        entry.key = const_cast<char*>(key.c_str());  // libpng copies both
+        entry.text = const_cast<char*>(value.c_str());
+        (isAscii(value) ? entry.text_length : entry.itxt_length) = value.size();
+        texts.push_back(entry);
+    }
+    return texts;
+}
+
+}  // namespace
+
+void writePng(const std::filesystem::path& target, const Picture8& picture,
+              const std::map<std::string, std::string>& text, bool srgb) {
+    const SourceLocation where{target.string()};
+    const bool channelsFit = picture.channels == 1 || picture.channels == 3 || picture.channels == 4;
+    const size_t rowBytes =
+        static_cast<size_t>(std::max(picture.width, 0)) * static_cast<size_t>(std::max(picture.channels, 0));
+    if (picture.width < 1 || picture.height < 1 || !channelsFit ||
+        picture.pixels.size() != rowBytes * static_cast<size_t>(picture.height))
+        throw InputError(
+            where,
+            fmt::format("no PNG of {}x{} pixels with {} channels from {} bytes (allowed: 1, 3, 4 channels)",
+                        picture.width, picture.height, picture.channels, picture.pixels.size()));
+    std::vector<png_text> texts = pngTexts(text, where);
+    std::vector<png_bytep> rows;
+    for (int y = 0; y < picture.height; ++y)
+        rows.push_back(const_cast<png_bytep>(picture.pixels.data() + static_cast<size_t>(y) * rowBytes));
+
+    PngOutput output;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &output, keepError, ignoreWarning);
+    png_infop head = png ? png_create_info_struct(png) : nullptr;
+    bool encoded = false;
+    if (head) {
+        png_set_write_fn(png, &output, appendBytes, nullptr);
+        encoded = encode(png, head, picture, rows.data(), texts.data(), static_cast<int>(texts.size()), srgb);
+    }
+    png_destroy_write_struct(&png, &head);
+    if (!encoded)
+        throw MachineError("cannot write '" + target.string() +
+                           "': " + (output.error.empty() ? "out of memory" : output.error));
+    writeFile(target, output.bytes);
+}
+
+Picture8 readPng(const std::filesystem::path& path) {
+    const std::string bytes = readFile(path);
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    const auto check = [&](int done) {
+        if (done != 0) return;
+        const std::string message = image.message;
+        png_image_free(&image);
+        throw InputError({path.string()}, "cannot be read as PNG: " + message);
+    };
+    check(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()));
+    const bool alpha = (image.format & PNG_FORMAT_FLAG_ALPHA) != 0,
+               colour = (image.format & PNG_FORMAT_FLAG_COLOR) != 0;
+    image.format = alpha ? PNG_FORMAT_RGBA : colour ? PNG_FORMAT_RGB : PNG_FORMAT_GRAY;
+    Picture8 picture{static_cast<int>(image.width),
+                     static_cast<int>(image.height),
+                     alpha    ? 4
+                     : colour ? 3
+                              : 1,
+                     {}};
+    // deflate makes at most 1032 bytes of one: a damaged header claims more.
+    if (PNG_IMAGE_SIZE(image) / 4096 > bytes.size()) {
+        png_image_free(&image);
+        throw InputError({path.string()}, fmt::format("damaged: {}x{} pixels cannot be in {} bytes",
+                                                      picture.width, picture.height, bytes.size()));
+    }
+    picture.pixels.resize(PNG_IMAGE_SIZE(image));
+    check(png_image_finish_read(&image, nullptr, picture.pixels.data(), 0, nullptr));
+    return picture;
+}
+
+}  // namespace spectrad
