@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 
+#include <assimp/ColladaMetaData.h>
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
@@ -137,20 +138,23 @@ Affine toAffine(const aiMatrix4x4& m, const aiNode& node) {
 }
 
 /// Document order, without recursion: files may nest deeper than a stack.
-NodesByName convertNodes(const aiScene& from, const std::vector<std::optional<std::uint32_t>>& meshNumber,
-                         ImportedScene& to) {
+NodeNames convertNodes(const aiScene& from, const std::vector<std::optional<std::uint32_t>>& meshNumber,
+                       ImportedScene& to) {
     struct Open {
         const aiNode* node;
         std::optional<std::uint32_t> parent;
     };
-    NodesByName byName;
+    NodeNames names;
     std::vector<Open> open{{from.mRootNode, std::nullopt}};
     while (!open.empty()) {
         const Open next = open.back();
         open.pop_back();
         const auto number = static_cast<std::uint32_t>(to.nodes.size());
         if (next.parent) to.nodes[*next.parent].children.push_back(number);
-        byName[next.node->mName.C_Str()].push_back(number);
+        names.byName[next.node->mName.C_Str()].push_back(number);
+        aiString id = next.node->mName;
+        if (next.node->mMetaData) next.node->mMetaData->Get(AI_METADATA_COLLADA_ID, id);
+        names.id.emplace_back(id.C_Str());
         ImportedNode node;
         node.name = oneLine(next.node->mName.C_Str());
         node.local = toAffine(next.node->mTransformation, *next.node);
@@ -162,7 +166,7 @@ NodesByName convertNodes(const aiScene& from, const std::vector<std::optional<st
         for (unsigned i = next.node->mNumChildren; i > 0; --i)
             open.push_back({next.node->mChildren[i - 1], number});
     }
-    return byName;
+    return names;
 }
 
 /// FBX states centimetres per unit and which axis is up; Assimp only passes it on. (COLLADA's unit and axis
@@ -261,10 +265,10 @@ ImportedScene importWithAssimp(const fs::path& path, bool restricted) {
         scene.meshMaterial.push_back(
             from->mMeshes[i]->mMaterialIndex < scene.materials.size() ? from->mMeshes[i]->mMaterialIndex : 0);
     }
-    const NodesByName nodeOf = convertNodes(*from, meshNumber, scene);
+    const NodeNames names = convertNodes(*from, meshNumber, scene);
     if (traits.fbx) scene.nodes[0].local = fbxToMetresYUp(*from) * scene.nodes[0].local;
-    convertLights(*from, traits, nodeOf, scene);
-    convertCameras(*from, traits, nodeOf, scene);
+    convertLights(*from, traits, names, scene);
+    convertCameras(*from, traits, names, traits.collada ? colladaOptics(path) : OpticsOfNode(), scene);
     say(scene.remarks, dropped.points, "points left out");
     say(scene.remarks, dropped.lines, "lines left out");
     say(scene.remarks, dropped.broken, "triangles left out: a corner is missing or not finite");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scene/import.h"
+#include "scene/import_collada.h"
 
 #include <assimp/scene.h>
 
@@ -35,12 +36,17 @@ struct FormatTraits {
 [[nodiscard]] std::vector<ImportedMaterial> convertMaterials(const aiScene& from, const FormatTraits& traits,
                                                              std::vector<std::string>& remarks);
 
-/// Lights and cameras, hung on the nodes that bear their names. `nodeOf`: all nodes of a name, in document
-/// order.
-using NodesByName = std::unordered_map<std::string, std::vector<std::uint32_t>>;
-void convertLights(const aiScene& from, const FormatTraits& traits, const NodesByName& nodeOf,
+/// Assimp ties lights and cameras to nodes by name alone.
+struct NodeNames {
+    std::unordered_map<std::string, std::vector<std::uint32_t>>
+        byName;                   ///< all nodes of a name, in document order
+    std::vector<std::string> id;  ///< of each node: its COLLADA id, else its name
+};
+using OpticsOfNode = std::unordered_map<std::string, ColladaOptics>;
+void convertLights(const aiScene& from, const FormatTraits& traits, const NodeNames& names,
                    ImportedScene& to);
-void convertCameras(const aiScene& from, const FormatTraits& traits, const NodesByName& nodeOf,
-                    ImportedScene& to);
+/// `optics`: what the file itself says, by the node's id; goes before what Assimp says.
+void convertCameras(const aiScene& from, const FormatTraits& traits, const NodeNames& names,
+                    const OpticsOfNode& optics, ImportedScene& to);
 
 }  // namespace spectrad

@@ -22,7 +22,7 @@ bool finite(Vec3 v) {
 /// n times), the k-th goes with the k-th node; one that no node claims stands at the root.
 class NodeOfName {
   public:
-    explicit NodeOfName(const NodesByName& nodes) : nodes_(nodes) {}
+    explicit NodeOfName(const NodeNames& names) : nodes_(names.byName) {}
     std::uint32_t next(const std::string& name) {
         const auto found = nodes_.find(name);
         if (found == nodes_.end()) return 0;
@@ -31,7 +31,7 @@ class NodeOfName {
     }
 
   private:
-    const NodesByName& nodes_;
+    const std::unordered_map<std::string, std::vector<std::uint32_t>>& nodes_;
     std::unordered_map<std::string, size_t> used_;
 };
 
@@ -70,51 +70,63 @@ std::optional<ImportedLight::Type> typeOf(const aiLight& from) {
     }
 }
 
+/// Without a stated aspect the picture will be 16:9, and shows as much from left to right as the file wants.
+constexpr double usualAspect = 16.0 / 9;
+
 /// Full vertical angle in degrees. Assimp's horizontal angle is the full one in practice, whatever its header
 /// says; for glTF it is the file's vertical angle times the aspect.
 double verticalFov(const aiCamera& from, const FormatTraits& traits) {
     const double across = from.mHorizontalFOV;
     if (traits.gltf) return degrees * across / (from.mAspect > 0 ? from.mAspect : 1);
-    // Without an aspect the picture will be 16:9, and shows as much from left to right as the file wants.
-    const double aspect = from.mAspect > 0 ? from.mAspect : 16.0 / 9;
-    return degrees * 2 * std::atan(std::tan(across / 2) / aspect);
+    return degrees * 2 * std::atan(std::tan(across / 2) / (from.mAspect > 0 ? from.mAspect : usualAspect));
 }
 
-/// What Assimp leaves of a COLLADA camera that states only its vertical angle, or is orthographic: its
-/// default angle of π/4, read as degrees.
+/// Assimp's default angle of π/4, read as degrees: what it leaves of a COLLADA camera that it did not
+/// understand.
 bool lostFov(const aiCamera& from, const FormatTraits& traits) {
-    const double left = std::numbers::pi / 4 / degrees;
-    return traits.collada && std::abs(from.mHorizontalFOV - left) < 1e-6;
+    return traits.collada && std::abs(degrees * from.mHorizontalFOV - std::numbers::pi / 4) < 1e-4;
+}
+
+/// Field of view or height, and aspect. False if the file's cannot be understood.
+bool setView(const aiCamera& from, const FormatTraits& traits, const ColladaOptics* optics,
+             ImportedCamera& to) {
+    const double aspect = optics ? optics->widthByHeight().value_or(0) : from.mAspect;
+    if (std::isfinite(aspect) && aspect > 1e-4 && aspect < 1e4) to.aspect = aspect;
+    const double otherwise = to.aspect > 0 ? to.aspect : usualAspect;
+    if (optics ? optics->orthographic() : from.mOrthographicWidth > 0) {
+        const double height = optics ? *optics->height(otherwise) : 2 * from.mOrthographicWidth / otherwise;
+        if (!std::isfinite(height)) return false;
+        to.orthographicHeight = height;
+        return true;
+    }
+    const double fov = optics ? optics->verticalFov(otherwise).value_or(0) : verticalFov(from, traits);
+    if (!(fov > 0 && fov < 180) || (!optics && lostFov(from, traits))) return false;
+    to.fovDegrees = fov;
+    return true;
 }
 
 std::optional<ImportedCamera> convert(const aiCamera& from, const FormatTraits& traits,
-                                      std::vector<std::string>& remarks) {
+                                      const ColladaOptics* optics, std::vector<std::string>& remarks) {
     ImportedCamera to;
     to.name = oneLine(from.mName.C_Str());
-    const Vec3 position = toVec3(from.mPosition), look = toVec3(from.mLookAt), up = toVec3(from.mUp);
+    // A glTF camera stands at its node's origin; Assimp repeats the node's translation here.
+    const Vec3 position = traits.gltf ? Vec3{} : toVec3(from.mPosition);
+    const Vec3 look = toVec3(from.mLookAt), up = toVec3(from.mUp);
     if (!finite(position) || !finite(look) || !finite(up) || length(look) == 0) {
         remarks.push_back("camera '" + to.name + "' looks nowhere: left out");
         return std::nullopt;
     }
     to.toNode = Affine::translation(position) * Affine::lookAt({}, look, length(up) > 0 ? up : Vec3{0, 1, 0});
-    if (std::isfinite(from.mAspect) && from.mAspect > 0 && from.mAspect < 1e4f) to.aspect = from.mAspect;
-    if (from.mOrthographicWidth > 0 && std::isfinite(from.mOrthographicWidth)) {
-        to.orthographicHeight = 2 * from.mOrthographicWidth / (to.aspect > 0 ? to.aspect : 16.0 / 9);
-        return to;
-    }
-    const double fov = verticalFov(from, traits);
-    if (fov > 0 && fov < 180 && !lostFov(from, traits))
-        to.fovDegrees = fov;
-    else
+    if (!setView(from, traits, optics, to))
         remarks.push_back("camera '" + to.name + "': its field of view cannot be read, 40 degrees taken");
     return to;
 }
 
 }  // namespace
 
-void convertLights(const aiScene& from, const FormatTraits& traits, const NodesByName& nodeOf,
+void convertLights(const aiScene& from, const FormatTraits& traits, const NodeNames& names,
                    ImportedScene& to) {
-    NodeOfName node(nodeOf);
+    NodeOfName node(names);
     for (unsigned i = 0; i < from.mNumLights; ++i) {
         const aiLight& source = *from.mLights[i];
         const std::uint32_t place = node.next(source.mName.C_Str());
@@ -152,12 +164,14 @@ void convertLights(const aiScene& from, const FormatTraits& traits, const NodesB
     }
 }
 
-void convertCameras(const aiScene& from, const FormatTraits& traits, const NodesByName& nodeOf,
-                    ImportedScene& to) {
-    NodeOfName node(nodeOf);
+void convertCameras(const aiScene& from, const FormatTraits& traits, const NodeNames& names,
+                    const OpticsOfNode& optics, ImportedScene& to) {
+    NodeOfName node(names);
     for (unsigned i = 0; i < from.mNumCameras; ++i) {
         const std::uint32_t place = node.next(from.mCameras[i]->mName.C_Str());
-        auto camera = convert(*from.mCameras[i], traits, to.remarks);
+        const auto own = optics.find(names.id[place]);
+        auto camera =
+            convert(*from.mCameras[i], traits, own == optics.end() ? nullptr : &own->second, to.remarks);
         if (!camera) continue;
         to.nodes[place].cameras.push_back(static_cast<std::uint32_t>(to.cameras.size()));
         to.cameras.push_back(std::move(*camera));
