@@ -4,6 +4,7 @@
 #include "spectrum/resolver.h"
 #include "spectrum/wavelengths.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,16 +15,24 @@ struct Detector {
     std::string name;                   ///< as the user named it
     std::vector<std::string> channels;  ///< "X" "Y" "Z", "L" "M" "S", "R" "G" "B", …
     std::vector<Curve> response;        ///< one per channel, zero outside their range
-    double scale = 1;                   ///< 683.002 lm/W for colour matching functions, so that Y is in cd/m²; else 1
-    bool tristimulus = false;           ///< channels are X Y Z
+    double scale = 1;          ///< 683.002 lm/W for colour matching functions, so that Y is in cd/m²; else 1
+    bool tristimulus = false;  ///< channels are X Y Z
 
     [[nodiscard]] size_t size() const { return response.size(); }
 };
 
 inline constexpr double luminousEfficacy = 683.002;  ///< K_m, lm/W (CIE 2006; FORMAT: Amounts)
 
-/// A library name ("observers/cie1931-2", "cie1931-2" too), or a file of the user's; throws InputError.
-[[nodiscard]] Detector detectorFor(const std::string& text, const SpectrumResolver& resolver, const SourceLocation& where);
+/// A library name, with its folder or without ("observers/cie1931-2", "cie1931-2", "nikon-5100"), or a file
+/// of the user's; throws InputError.
+[[nodiscard]] Detector detectorFor(const std::string& text, const SpectrumResolver& resolver,
+                                   const SourceLocation& where);
+/// The CIE 1931 observer of the library: what photometric amounts, default whites and colour temperatures are
+/// defined with. Throws InputError if the library lacks it.
+[[nodiscard]] Detector standardObserver(const Library& library);
+/// A sensitivity as a detector. Channels named like "x_bar" or "R" become single capitals; three channels X,
+/// Y, Z make it tristimulus, with the scale that puts Y in cd/m².
+[[nodiscard]] Detector detectorFrom(const Spectrum& spectrum);
 
 /// Weights on a cube's bands, scale included: channel c = Σ_j weights[c][j] · L_j (see detectorWeights).
 struct DetectorWeights {
@@ -33,5 +42,8 @@ struct DetectorWeights {
 
 /// Exact channels of a product of curves (light × material …), no bands in between.
 [[nodiscard]] std::vector<double> respond(const Detector& detector, std::span<const Curve* const> product);
+/// The same for a tristimulus detector; throws InputError for any other.
+[[nodiscard]] std::array<double, 3> respondXyz(const Detector& detector,
+                                               std::span<const Curve* const> product);
 
 }  // namespace spectrad

@@ -1,0 +1,81 @@
+#include "colour/detector.h"
+
+#include "base/text.h"
+#include "spectrum/projection.h"
+
+#include <algorithm>
+#include <array>
+
+namespace spectrad {
+
+/// "x_bar", "x-bar", "xbar" and "x" are all X; other names stay as they are.
+static std::string channelName(std::string_view header) {
+    std::string_view stem = trimmed(header);
+    for (std::string_view tail : {"_bar", "-bar", " bar", "bar"})
+        if (stem.size() == tail.size() + 1 && stem.substr(1) == tail) stem = stem.substr(0, 1);
+    std::string result(stem);
+    if (result.size() == 1 && result[0] >= 'a' && result[0] <= 'z')
+        result[0] = static_cast<char>(result[0] - 'a' + 'A');
+    return result;
+}
+
+Detector detectorFrom(const Spectrum& spectrum) {
+    Detector detector;
+    detector.name = spectrum.text;
+    for (const std::string& channel : spectrum.channels)
+        detector.channels.push_back(channelName(channel));
+    detector.channels.resize(spectrum.curves.size());
+    for (size_t c = 0; c < detector.channels.size(); ++c) {
+        // Files without headers, and headers that say the same twice, get numbers.
+        std::string& channel = detector.channels[c];
+        const auto before = detector.channels.begin() + static_cast<std::ptrdiff_t>(c);
+        if (channel.empty() || std::find(detector.channels.begin(), before, channel) != before)
+            channel = "channel" + std::to_string(c + 1);
+        detector.response.push_back(spectrum.curves[c].withOutside(Outside::zero));
+    }
+    detector.tristimulus = detector.channels == std::vector<std::string>{"X", "Y", "Z"};
+    if (detector.tristimulus) detector.scale = luminousEfficacy;
+    return detector;
+}
+
+Detector detectorFor(const std::string& text, const SpectrumResolver& resolver, const SourceLocation& where) {
+    return detectorFrom(resolver.resolve(text, Role::detector, where));
+}
+
+Detector standardObserver(const Library& library) {
+    const auto spectrum = library.find("observers/cie1931-2");
+    if (!spectrum)
+        throw InputError("the library " + library.folder().string() +
+                         " has no observers/cie1931-2, which colorimetry needs");
+    return detectorFrom(*spectrum);
+}
+
+DetectorWeights weightsOn(const Wavelengths& grid, const Detector& detector) {
+    DetectorWeights result;
+    for (const Curve& response : detector.response) {
+        result.weights.push_back(detectorWeights(grid, response));
+        for (double& weight : result.weights.back())
+            weight *= detector.scale;
+    }
+    return result;
+}
+
+std::vector<double> respond(const Detector& detector, std::span<const Curve* const> product) {
+    std::vector<const Curve*> factors(product.begin(), product.end());
+    factors.push_back(nullptr);
+    std::vector<double> channels;
+    for (const Curve& response : detector.response) {
+        factors.back() = &response;
+        channels.push_back(detector.scale * integrate(factors));
+    }
+    return channels;
+}
+
+std::array<double, 3> respondXyz(const Detector& detector, std::span<const Curve* const> product) {
+    if (!detector.tristimulus)
+        throw InputError("XYZ need an observer with the channels X, Y, Z, not '" + detector.name + "'");
+    const std::vector<double> channels = respond(detector, product);
+    return {channels[0], channels[1], channels[2]};
+}
+
+}  // namespace spectrad

@@ -1,0 +1,139 @@
+#include "colour/observe.h"
+
+#include "base/text.h"
+#include "spectrum/projection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace spectrad {
+
+void observeRow(const DetectorWeights& detector, const float* bands, int y, ChannelImage& image) {
+    // Blocks of pixels whose sums stay in the first-level cache while the bands go by.
+    constexpr size_t blockSize = 256;
+    std::array<double, blockSize> sum;
+    const auto width = static_cast<size_t>(image.width);
+    const size_t row = static_cast<size_t>(y) * width;
+    for (size_t from = 0; from < width; from += blockSize) {
+        const size_t count = std::min(blockSize, width - from);
+        for (size_t c = 0; c < detector.weights.size(); ++c) {
+            sum.fill(0);
+            for (size_t j = 0; j < detector.weights[c].size(); ++j) {
+                const double weight = detector.weights[c][j];
+                const float* band = bands + j * width + from;
+                for (size_t x = 0; x < count; ++x)
+                    sum[x] += weight * static_cast<double>(band[x]);
+            }
+            for (size_t x = 0; x < count; ++x) {
+                if (!std::isfinite(sum[x]))
+                    throw InputError("pixel (" + std::to_string(from + x) + ", " + std::to_string(y) +
+                                     ") holds a value that is no finite number");
+                image.plane[c][row + from + x] = sum[x];
+            }
+        }
+    }
+}
+
+std::vector<std::vector<float>> floatPlanes(const ChannelImage& image,
+                                            const std::vector<std::string>& channels) {
+    std::vector<std::vector<float>> result;
+    for (size_t c = 0; c < image.plane.size(); ++c) {
+        std::vector<float>& plane = result.emplace_back(image.plane[c].size());
+        for (size_t i = 0; i < plane.size(); ++i) {
+            const double value = image.plane[c][i];
+            if (!(std::abs(value) <= std::numeric_limits<float>::max()))
+                throw InputError("channel " + channels[c] + " of pixel (" +
+                                 std::to_string(i % static_cast<size_t>(image.width)) + ", " +
+                                 std::to_string(i / static_cast<size_t>(image.width)) + ") is " +
+                                 rounded(value, 4) + ", beyond the range of float (allowed: up to 3.4e38)");
+            plane[i] = static_cast<float>(value);
+        }
+    }
+    return result;
+}
+
+/// Solves a · x = b for symmetric, positive definite a by Cholesky's factors, in place. Directions that are
+/// nothing but rounding (channels that repeat each other) get no weight.
+static std::vector<double> solve(std::vector<std::vector<double>> a, std::vector<double> b) {
+    const size_t n = b.size();
+    std::vector<bool> used(n);
+    for (size_t j = 0; j < n; ++j) {
+        const double before = a[j][j];
+        for (size_t k = 0; k < j; ++k)
+            if (used[k]) a[j][j] -= a[j][k] * a[j][k];
+        used[j] = a[j][j] > 1e-12 * before;
+        if (!used[j]) continue;
+        a[j][j] = std::sqrt(a[j][j]);
+        for (size_t i = j + 1; i < n; ++i) {
+            for (size_t k = 0; k < j; ++k)
+                if (used[k]) a[i][j] -= a[i][k] * a[j][k];
+            a[i][j] /= a[j][j];
+        }
+    }
+    for (size_t i = 0; i < n; ++i) {
+        if (!used[i]) {
+            b[i] = 0;
+            continue;
+        }
+        for (size_t k = 0; k < i; ++k)
+            b[i] -= used[k] ? a[i][k] * b[k] : 0;
+        b[i] /= a[i][i];
+    }
+    for (size_t i = n; i-- > 0;) {
+        if (!used[i]) continue;
+        for (size_t k = i + 1; k < n; ++k)
+            b[i] -= used[k] ? a[k][i] * b[k] : 0;
+        b[i] /= a[i][i];
+    }
+    return b;
+}
+
+XyzMatrix towardsXyz(const Detector& detector, const Detector& observer) {
+    if (!observer.tristimulus)
+        throw InputError("XYZ need an observer with the channels X, Y, Z, not '" + observer.name + "'");
+    const size_t n = detector.size();
+    if (detector.tristimulus) return {std::vector<double>{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+    const auto overlap = [](const Curve& a, const Curve& b) {
+        const std::array<const Curve*, 2> both{&a, &b};
+        return integrate(both);
+    };
+    std::vector<std::vector<double>> gram(n, std::vector<double>(n));
+    double trace = 0;
+    for (size_t i = 0; i < n; ++i) {
+        for (size_t j = 0; j <= i; ++j)
+            gram[i][j] = gram[j][i] = overlap(detector.response[i], detector.response[j]);
+        trace += gram[i][i];
+    }
+    if (!(trace > 0)) throw InputError("'" + detector.name + "' has no sensitivity at any wavelength");
+    XyzMatrix matrix;
+    for (size_t k = 0; k < 3; ++k) {
+        std::vector<double> target(n);
+        for (size_t i = 0; i < n; ++i)
+            target[i] = overlap(detector.response[i], observer.response[k]);
+        matrix[k] = solve(gram, target);
+        for (double& m : matrix[k])
+            m *= observer.scale / detector.scale;
+    }
+    return matrix;
+}
+
+Triple toXyz(const XyzMatrix& matrix, const std::vector<double>& channels) {
+    Triple xyz{};
+    for (size_t k = 0; k < 3; ++k)
+        for (size_t c = 0; c < channels.size(); ++c)
+            xyz[k] += matrix[k][c] * channels[c];
+    return xyz;
+}
+
+ChannelImage toXyz(const XyzMatrix& matrix, const ChannelImage& channels) {
+    ChannelImage xyz(channels.width, channels.height, 3);
+    for (size_t k = 0; k < 3; ++k)
+        for (size_t c = 0; c < channels.plane.size(); ++c)
+            for (size_t i = 0; i < channels.pixels(); ++i)
+                xyz.plane[k][i] += matrix[k][c] * channels.plane[c][i];
+    return xyz;
+}
+
+}  // namespace spectrad
