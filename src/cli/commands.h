@@ -4,8 +4,6 @@
 #include "base/error.h"
 
 #include <functional>
-#include <string>
-#include <vector>
 
 namespace CLI {
 class App;
@@ -16,7 +14,7 @@ namespace spectrad {
 /// What the chosen command does once the whole command line has been read; returns the exit code.
 using Action = std::function<ExitCode()>;
 
-void addRender(CLI::App& app, Action& action, const std::vector<std::string>& arguments);
+void addRender(CLI::App& app, Action& action);
 void addObserve(CLI::App& app, Action& action);
 void addMeasure(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);

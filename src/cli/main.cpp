@@ -84,7 +84,7 @@ ExitCode runProgram(const std::vector<std::string>& arguments) {
     app.require_subcommand(1);
 
     Action action;
-    addRender(app, action, arguments);
+    addRender(app, action);
     addObserve(app, action);
     addMeasure(app, action);
     addCompare(app, action);

@@ -1,0 +1,321 @@
+// spectrad render: a scene into a spectral image.
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/observation.h"
+#include "cli/options.h"
+#include "colour/develop.h"
+#include "image/cube.h"
+#include "image/picture.h"
+#include "render/renderer.h"
+#include "spectrum/library.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <sys/resource.h>
+
+namespace spectrad {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct RenderArguments {
+    SceneArguments scene;
+    std::string output, preview, format, compression;
+    bool half = false, json = false, quiet = false;
+};
+
+/// Where the cube goes and how; decided from the command line alone.
+struct Output {
+    fs::path cube, preview;
+    bool envi = false, compressionAsked = false;
+    WriteOptions options;
+};
+
+Output outputOf(const RenderArguments& arguments) {
+    Output out;
+    const std::string extension = extensionOf(arguments.output);
+    if (!arguments.format.empty() && arguments.format != "exr" && arguments.format != "envi")
+        throw UsageError("--format: '" + arguments.format + "' is not known (allowed: exr, envi)");
+    if (arguments.format.empty() && !arguments.output.empty() && extension != ".exr" && extension != ".img")
+        throw UsageError("-o: '" + arguments.output +
+                         "' must end in .exr or .img (ENVI), or --format must say what it is");
+    out.envi = arguments.format.empty() ? extension == ".img" : arguments.format == "envi";
+    if ((out.envi && extension == ".exr") || (!out.envi && extension == ".img"))
+        throw UsageError("-o: '" + arguments.output + "' does not go with --format " + arguments.format);
+    if (out.envi && extension == ".hdr")
+        throw UsageError("-o: name ENVI's data file (.img); its header (.hdr) is written beside it");
+    if (out.envi && (arguments.half || !arguments.compression.empty()))
+        throw UsageError("--half and --compression are EXR's; an ENVI file is plain float");
+
+    const char* ending = out.envi ? ".img" : ".exr";
+    out.cube =
+        arguments.output.empty() ? fs::path(arguments.scene.file).stem().string() + ending : arguments.output;
+    out.preview = arguments.preview;
+    out.compressionAsked = !arguments.compression.empty();
+    if (out.compressionAsked) out.options.compression = parseCompression(arguments.compression);
+    out.options.half = arguments.half;
+    if (!arguments.preview.empty()) {
+        if (extensionOf(out.preview) != ".png")
+            throw UsageError("--preview: '" + arguments.preview + "' must end in .png");
+        requireOther("--preview", out.preview, arguments.scene.file);
+        requireWritable(out.preview);
+    }
+    requireOther("-o", out.cube, arguments.scene.file);
+    requireWritable(out.cube);
+    return out;
+}
+
+/// The part of the command line that decides what is in the file. Where it is written is left out: the same
+/// picture under another name is the same file.
+std::string recordedCommand(const RenderArguments& arguments) {
+    const SceneArguments& scene = arguments.scene;
+    std::string text = "spectrad render " + scene.file;
+    const auto add = [&](const char* option, const std::string& value) {
+        if (!value.empty()) text += std::string(" ") + option + " " + value;
+    };
+    add("--wavelengths", scene.wavelengths);
+    add("--projection", scene.projection);
+    add("--size", scene.size);
+    add("--samples", scene.samples);
+    add("--camera", scene.camera);
+    add("--pass", scene.pass);
+    add("--device", scene.device);
+    for (const std::string& set : scene.set)
+        add("--set", set);
+    add("--compression", arguments.compression);
+    if (arguments.half) text += " --half";
+    if (scene.restricted) text += " --restrict";
+    return text;
+}
+
+/// What makes the file a measurement: which scene, how, with what, under which white.
+CubeInfo cubeInfo(const RenderArguments& arguments, const Scene& scene, const Plan& plan,
+                  const Device& device) {
+    CubeInfo info;
+    info.width = plan.view.width;
+    info.height = plan.view.height;
+    info.wavelengths = plan.wavelengths;
+    info.projectionStated = true;
+    info.attributes = {{"software", "Spectrad " SPECTRAD_VERSION},
+                       {"scene", scene.file},
+                       {"sceneSha256", scene.sha256},
+                       {"commandLine", recordedCommand(arguments)},
+                       {"samples", std::to_string(plan.samples)},
+                       {"device", device.info().name + " (" + device.info().platform + ")"},
+                       {attribute::white, plan.whiteName},
+                       {attribute::whiteXyz, fmt::format("{},{},{}", shortest(plan.white[0]),
+                                                         shortest(plan.white[1]), shortest(plan.white[2]))}};
+    if (!plan.cameraName.empty()) info.attributes["camera"] = plan.cameraName;
+    if (!plan.passName.empty()) info.attributes["pass"] = plan.passName;
+    return info;
+}
+
+/// The picture for people: what `observe` makes of the cube by default, from the renderer's preview, whose
+/// colours are those of the exact spectra whatever the bands.
+class Preview {
+  public:
+    Preview(bool wanted, int width, int height) {
+        if (wanted) xyz_.emplace(width, height, 3);
+    }
+    void add(int firstRow, int rows, const float* linear) {
+        if (!xyz_) return;
+        const auto width = static_cast<size_t>(xyz_->width);
+        for (size_t row = 0; row < static_cast<size_t>(rows); ++row)
+            for (size_t x = 0; x < width; ++x) {
+                const float* rgb = linear + row * 3 * width + x;
+                const Triple xyz = toXyz_ * Triple{rgb[0], rgb[width], rgb[2 * width]};
+                const size_t pixel = (static_cast<size_t>(firstRow) + row) * width + x;
+                for (size_t i = 0; i < 3; ++i)
+                    xyz_->plane[i][pixel] = luminousEfficacy * xyz[i];
+            }
+    }
+    void write(const fs::path& target, const White& white) const {
+        if (!xyz_) return;
+        DevelopSettings settings;
+        settings.white = white;
+        const DevelopedPicture picture = develop(*xyz_, settings);
+        writePng(target, {picture.width, picture.height, 3, picture.rgb},
+                 {{"Software", "spectrad " SPECTRAD_VERSION},
+                  {"Description", fmt::format("white {}, {} cd/m2 shown as display white", white.name,
+                                              rounded(picture.whiteLuminance, 6))}});
+    }
+
+  private:
+    Matrix3 toXyz_ = srgbDisplay().toXyz;  // the preview is linear Rec.709, its XYZ without the 683 lm/W
+    std::optional<ChannelImage> xyz_;
+};
+
+struct Seconds {
+    double load = 0, plan = 0, build = 0, render = 0, write = 0, total = 0;
+};
+
+/// Seconds since the last call, or since construction.
+class Laps {
+  public:
+    double lap() {
+        const double now = clock_.seconds(), passed = now - last_;
+        last_ = now;
+        return passed;
+    }
+    [[nodiscard]] double total() const { return clock_.seconds(); }
+
+  private:
+    Stopwatch clock_;
+    double last_ = 0;
+};
+
+std::uint64_t peakMemoryBytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts KiB
+}
+
+std::unique_ptr<CubeWriter> openWriter(const Output& output, const CubeInfo& info, Notes& notes) {
+    constexpr size_t queuedBytes = size_t{256} << 20;  // a strip is compressed while the next is rendered
+    WriteOptions options = output.options;
+    if (output.envi) return onOwnThread(createEnvi(output.cube, info), queuedBytes, info);
+    options.compression = chooseCompression(info, options, output.compressionAsked, notes);
+    return onOwnThread(createExr(output.cube, info, options), queuedBytes, info);
+}
+
+void sayLosses(const WriteReport& report, Notes& notes) {
+    if (report.underflows > 0)
+        notes.warn(fmt::format("{} values below the range of half became zero", report.underflows));
+    if (report.previewClamped > 0)
+        notes.say(fmt::format(
+            "{} values of the RGB preview (no measurement) were held at the range of the pixel type",
+            report.previewClamped));
+}
+
+Json described(const Output& output, const Plan& plan, const Device& device, const Seconds& seconds) {
+    Json out{{"output", output.cube.string()}};
+    if (!output.preview.empty()) out["preview"] = output.preview.string();
+    out.update({{"width", plan.view.width},
+                {"height", plan.view.height},
+                {"wavelengths_nm", plan.wavelengths.nm},
+                {"projection", name(plan.wavelengths.projection)},
+                {"samples", plan.samples},
+                {"camera", plan.cameraName},
+                {"pass", plan.passName},
+                {"seconds",
+                 {{"load", seconds.load},
+                  {"plan", seconds.plan},
+                  {"build", seconds.build},
+                  {"render", seconds.render},
+                  {"write", seconds.write},
+                  {"total", seconds.total}}},
+                {"peak_rss_bytes", peakMemoryBytes()},
+                {"device", device.info().name},
+                {"triangles", plan.triangles()},
+                {"lights", plan.lights()},
+                {"terms", plan.terms.count()},
+                {"features", plan.features},
+                {"white", {{"name", plan.whiteName}, {"XYZ", plan.white}}}});
+    return out;
+}
+
+void printSummary(const Output& output, const Plan& plan, const Seconds& seconds) {
+    const std::vector<double>& nm = plan.wavelengths.nm;
+    printText(fmt::format(
+        "{}: {} x {} pixels, {} bands {} to {} nm, {} samples a pixel; {:.2f} s (load {:.2f}, plan {:.2f}, "
+        "build {:.2f}, render {:.2f}, write {:.2f})\n",
+        output.cube.string(), plan.view.width, plan.view.height, nm.size(), rounded(nm.front(), 9),
+        rounded(nm.back(), 9), plan.samples, seconds.total, seconds.load, seconds.plan, seconds.build,
+        seconds.render, seconds.write));
+}
+
+ExitCode render(const RenderArguments& arguments) {
+    Laps clock;
+    Seconds seconds;
+    Console console(arguments.quiet);
+    const RenderSettings settings = renderSettings(arguments.scene);
+    const std::optional<int> number = deviceNumber(arguments.scene.device);
+    const Output output = outputOf(arguments);
+
+    const Library library = Library::open();
+    const Scene scene =
+        loadScene(arguments.scene.file, library, loadOptions(arguments.scene), console.notes());
+    seconds.load = clock.lap();
+    const Plan plan = makePlan(scene, settings, library, console.notes());
+    seconds.plan = clock.lap();
+    const Device device = Device::open(number);
+    const CubeInfo info = cubeInfo(arguments, scene, plan, device);
+    const std::unique_ptr<CubeWriter> writer = openWriter(output, info, console.notes());
+    console.printNotes();
+    Renderer renderer(device, plan);
+
+    Preview preview(!output.preview.empty(), info.width, info.height);
+    {
+        ProgressBar bar("rendering", arguments.quiet);
+        renderer.render(
+            [&](int firstRow, int rows, const float* bands, const float* linear) {
+                const Stopwatch waiting;
+                writer->write(rows, bands, linear);
+                preview.add(firstRow, rows, linear);
+                seconds.write += waiting.seconds();
+            },
+            [&](double share) { bar.show(share); });
+    }
+    seconds.build = renderer.times().build;
+    seconds.render = renderer.times().render;
+    const Stopwatch finishing;
+    sayLosses(writer->finish(), console.notes());
+    preview.write(output.preview, {plan.whiteName, plan.white, false});
+    seconds.write += finishing.seconds();
+    seconds.total = clock.total();
+
+    console.printNotes();
+    if (arguments.json)
+        printJson(described(output, plan, device, seconds));
+    else if (!arguments.quiet)
+        printSummary(output, plan, seconds);
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void addRender(CLI::App& app, Action& action) {
+    CLI::App* command = app.add_subcommand("render", "Render a scene into a spectral image");
+    auto arguments = std::make_shared<RenderArguments>();
+    command->add_option("SCENE", arguments->scene.file, "a scene (XML), or a model that Assimp reads")
+        ->type_name("SCENE")
+        ->required();
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "the spectral image; default: the scene's name with .exr, in the current folder")
+        ->type_name("OUT.exr|OUT.img");
+    addSceneOptions(*command, arguments->scene);
+    command->add_option("--preview", arguments->preview, "also write a picture for people, 8-bit sRGB")
+        ->type_name("OUT.png");
+    addDeviceOption(*command, arguments->scene.device);
+    command
+        ->add_option("--format", arguments->format,
+                     "OpenEXR in the spectral layout 1.0, or ENVI (x.img with x.hdr beside it); default: by "
+                     "the name, else exr")
+        ->type_name("exr|envi");
+    command->add_option("--compression", arguments->compression, "of EXR, all lossless; default: piz")
+        ->type_name("none|zips|zip|piz");
+    command->add_flag("--half", arguments->half, "16-bit floats: 11 significant bits, up to 65504 (EXR)");
+    command->add_flag("--json", arguments->json,
+                      "print a JSON object: sizes, seconds, peak_rss_bytes, the plan");
+    command->add_flag("-q,--quiet", arguments->quiet, "no remarks, no progress, no summary");
+    command->footer(
+        "A band value is spectral radiance in W.m^-2.sr^-1.nm^-1, averaged under the band's slit function. "
+        "Wavelengths are in\n"
+        "nm, sizes in pixels, times in seconds. The file appears whole or not at all; the same scene, device "
+        "and options give\n"
+        "the same bytes.\n\n"
+        "Examples:\n"
+        "  spectrad render scene.xml --preview scene.png\n"
+        "  spectrad render scene.xml -o warm.exr --set lamp.spectrum=illuminants/A\n"
+        "  spectrad render scene.xml --wavelengths 400:700:10 --size 1920x1080 --samples 32 --json\n"
+        "  spectrad render scene.xml -o scene.img --projection point");
+    command->final_callback([&action, arguments] { action = [arguments] { return render(*arguments); }; });
+}
+
+}  // namespace spectrad
