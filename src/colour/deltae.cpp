@@ -1,6 +1,7 @@
 // Colour differences between CIE Lab values.
 #include "colour/colour.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -19,10 +20,10 @@ static double hue(double a, double b) {
     return degrees < 0 ? degrees + 360 : degrees;
 }
 
-/// C⁷ / (C⁷ + 25⁷), the chroma weighting that CIEDE2000 uses twice.
+/// C⁷ / (C⁷ + 25⁷), the chroma weighting that CIEDE2000 uses twice; written so that no chroma overflows.
 static double seventhPowerShare(double chroma) {
-    const double c7 = std::pow(chroma, 7);
-    return c7 / (c7 + 6103515625.0);
+    const double r = 25 / chroma, r3 = r * r * r;
+    return 1 / (1 + r3 * r3 * r);
 }
 
 // Step numbers and names as in Sharma, Wu & Dalal, "The CIEDE2000 color-difference formula: implementation

@@ -27,7 +27,7 @@ double displayWhiteLuminance(const ChannelImage& xyz, const DevelopSettings& set
         if (!(luminance > 0) && !y.empty()) luminance = *std::max_element(y.begin(), y.end());
         if (!(luminance > 0)) luminance = 1;
     }
-    return luminance * std::exp2(-settings.exposure.ev);
+    return std::clamp(luminance * std::exp2(-settings.exposure.ev), 1e-300, 1e300);
 }
 
 Matrix3 developMatrix(const DevelopSettings& settings, double whiteLuminance) {

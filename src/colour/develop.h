@@ -35,7 +35,8 @@ struct DevelopedPicture {
 };
 
 /// The luminance, cd/m², that becomes display white: the white's own, or the 99th percentile of Y; × 2^−EV.
-/// An image whose 99th percentile is black counts by its brightest pixel, an all-black one as 1 cd/m².
+/// An image whose 99th percentile is black counts by its brightest pixel, an all-black one as 1 cd/m². Within
+/// 1e-300…1e300, so that its reciprocal exists.
 [[nodiscard]] double displayWhiteLuminance(const ChannelImage& xyz, const DevelopSettings& settings);
 
 /// Takes XYZ, absolute, to linear display signals, 0…1 in gamut: one matrix, for the viewer too.

@@ -15,7 +15,9 @@ static bool isLight(const Triple& xyz) {
 White whiteOf(const std::string& name, const Curve& light, const Detector& detector, const XyzMatrix& matrix,
               const SourceLocation& where) {
     const std::array<const Curve*, 1> product{&light};
-    const Triple xyz = toXyz(matrix, respond(detector, product));
+    const std::vector<double> channels = respond(detector, product);
+    const Triple xyz =
+        detector.tristimulus ? Triple{channels[0], channels[1], channels[2]} : toXyz(matrix, channels);
     if (!isLight(xyz))
         throw InputError(where,
                          "'" + name + "' cannot be a white: '" + detector.name + "' sees no light of it");

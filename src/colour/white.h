@@ -15,8 +15,8 @@ struct White {
 
 /// `text` as --white takes it: X,Y,Z in numbers ("95.05,100,108.9": absolute, with luminance), or a light's
 /// spectrum (its chromaticity). "at:X,Y" is for the caller, who has the image (see whiteAt). A detector
-/// without X, Y, Z sees the light through `matrix` (towardsXyz). Throws InputError: unknown spectrum, numbers
-/// that are no light, a light that the detector does not see.
+/// without X, Y, Z sees the light through `matrix` (towardsXyz); for X, Y, Z it may be empty. Throws
+/// InputError: unknown spectrum, numbers that are no light, a light that the detector does not see.
 [[nodiscard]] White whiteFor(const std::string& text, const Detector& detector, const XyzMatrix& matrix,
                              const SpectrumResolver& resolver, const SourceLocation& where);
 /// The chromaticity of a light: what whiteFor makes of a spectrum.

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 using namespace spectrad;
 
 namespace {
@@ -107,6 +109,16 @@ TEST_CASE("A mostly black image is exposed for what is there, a black one stays 
     CHECK(black.clipped == 0);
     image.plane[1][7] = 42;
     CHECK(displayWhiteLuminance(image, DevelopSettings()) == 42);
+}
+
+TEST_CASE("A thousand stops are white or black, never no number") {
+    DevelopSettings settings = under(srgbDisplay().white, 1e20);
+    const ChannelImage image = uniform(1, 1, settings.white.xyz);
+    settings.exposure.ev = 1000;
+    CHECK(develop(image, settings).rgb == std::vector<std::uint8_t>(3, 255));
+    settings.exposure.ev = -1000;
+    CHECK(develop(image, settings).rgb == std::vector<std::uint8_t>(3, 0));
+    CHECK(std::isfinite(displayWhiteLuminance(image, settings)));
 }
 
 TEST_CASE("Quantiles lie linearly between ranks") {

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 using namespace spectrad;
 
 namespace {
@@ -66,6 +68,11 @@ TEST_CASE("Equal colours differ by exactly nothing, greys and black included") {
         CHECK(deltaE00(colour, colour) == 0);
         CHECK(deltaE76(colour, colour) == 0);
     }
+}
+
+TEST_CASE("Colours far beyond any surface still have a finite difference") {
+    CHECK(std::isfinite(deltaE00({1e30, 1e60, -1e60}, {0, 0, 0})));
+    CHECK(std::isfinite(deltaE00({1e30, 1e60, -1e60}, {1e30, -1e60, 1e60})));
 }
 
 TEST_CASE("Two greys differ by their weighted lightness alone") {

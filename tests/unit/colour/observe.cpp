@@ -133,7 +133,17 @@ TEST_CASE("A lamp is a white of its chromaticity, whatever its amount") {
     CHECK(white.xyz[0] == Approx(1.0984852438043309).epsilon(1e-10));  // as in the detectors' test
     CHECK(white.xyz[2] == Approx(0.35591430325826817).epsilon(1e-10));
     CHECK(bright.xyz[0] == Approx(white.xyz[0]).epsilon(1e-12));
+    CHECK(whiteOf("A", lamp, observer, {}, {}).xyz == white.xyz);  // X, Y, Z need no matrix
     CHECK_THROWS_AS(whiteOf("infrared", Curve::line(1064), observer, matrix, {}), InputError);
+}
+
+TEST_CASE("A camera's white is where its matrix takes the lamp") {
+    const Detector camera = fromLibrary("cameras/nikon-5100");
+    const XyzMatrix matrix = towardsXyz(camera, standardObserver(library()));
+    const Curve lamp = library().find("illuminants/A").value().curve();
+    const Triple seen = throughMatrix(camera, lamp), white = whiteOf("A", lamp, camera, matrix, {}).xyz;
+    for (size_t c = 0; c < 3; ++c)
+        CHECK(white[c] == Approx(seen[c] / seen[1]).epsilon(1e-12));
 }
 
 TEST_CASE("Whites as text: numbers are absolute, names are chromaticities, the rest is refused") {
