@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "image/channel_names.h"
+#include "image/printable.h"
 
 #include <fmt/format.h>
 
@@ -19,8 +20,8 @@ std::vector<CurveSample> parseCurveAttribute(std::string_view text, const Source
         const auto value =
             colon == std::string_view::npos ? std::nullopt : parseDouble(piece.substr(colon + 1));
         if (!nm || !value || !std::isfinite(*nm) || *nm <= 0 || *value < 0)
-            throw InputError(where,
-                             fmt::format("'{}' is no sample of a curve (allowed: like 400nm:0.92)", piece));
+            throw InputError(where, fmt::format("'{}' is no sample of a curve (allowed: like 400nm:0.92)",
+                                                printable(piece)));
         samples.push_back({*nm, *value});
     }
     if (samples.empty())

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "image/channel_names.h"
+#include "image/printable.h"
 
 #include <fmt/format.h>
 
@@ -97,11 +98,12 @@ Header Header::parse(std::string_view text, const std::filesystem::path& file) {
             throw InputError(where, "neither 'key = value' nor a comment");
         Field field{std::string(trimmed(content.substr(0, equals))),
                     std::string(trimmed(content.substr(equals + 1))), line};
-        if (header.find(field.key)) throw InputError(where, "'" + field.key + "' is given twice");
+        if (header.find(field.key)) throw InputError(where, "'" + printable(field.key) + "' is given twice");
         if (startsWith(field.value, "{")) {
             while (field.value.find('}') == std::string::npos) {
                 if (text.empty())
-                    throw InputError(where, "the list of '" + field.key + "' is not closed by '}'");
+                    throw InputError(where,
+                                     "the list of '" + printable(field.key) + "' is not closed by '}'");
                 field.value += '\n';
                 field.value += takeLine(text);
                 ++line;
@@ -128,8 +130,8 @@ long long Header::integer(std::string_view key, long long least, long long most,
     if (!field) throw InputError({file_}, fmt::format("'{}' is missing", key));
     const auto value = parseInteger(field->value);
     if (!value || *value < least || *value > most)
-        throw InputError(where(*field),
-                         fmt::format("{} is '{}' (allowed: {} to {})", key, field->value, least, most));
+        throw InputError(where(*field), fmt::format("{} is '{}' (allowed: {} to {})", key,
+                                                    printable(field->value), least, most));
     return *value;
 }
 
@@ -138,7 +140,8 @@ std::optional<double> Header::number(std::string_view key) const {
     if (!field) return std::nullopt;
     const auto value = parseDouble(field->value);
     if (!value)
-        throw InputError(where(*field), fmt::format("{} is '{}' (allowed: a number)", key, field->value));
+        throw InputError(where(*field),
+                         fmt::format("{} is '{}' (allowed: a number)", key, printable(field->value)));
     return value;
 }
 
@@ -148,7 +151,9 @@ std::vector<double> Header::numbers(std::string_view key, size_t count) const {
     if (!field) return values;
     for (std::string_view item : split(field->value, ',')) {
         const auto value = parseDouble(item);
-        if (!value) throw InputError(where(*field), fmt::format("'{}' in {} (allowed: numbers)", item, key));
+        if (!value)
+            throw InputError(where(*field),
+                             fmt::format("'{}' in {} (allowed: numbers)", printable(item), key));
         values.push_back(*value);
     }
     if (values.size() != count)
@@ -168,19 +173,20 @@ std::vector<double> wavelengthsNm(const Header& header, size_t bands, Notes& not
         throw InputError(header.where(*units),
                          fmt::format("wavelength units '{}' (allowed: Nanometers, Micrometers, Millimeters, "
                                      "Centimeters, Meters, Angstroms, Wavenumber, MHz, GHz, THz)",
-                                     units->value));
+                                     printable(units->value)));
     if (!stated) unit = "nm";
     std::vector<double> nm;
     for (std::string_view item : split(list->value, ',')) {
         const auto value = inNm(item, unit);
         if (!value || !std::isfinite(*value) || *value <= 0)
-            throw InputError(header.where(*list), fmt::format("'{}' is no wavelength above 0", item));
+            throw InputError(header.where(*list),
+                             fmt::format("'{}' is no wavelength above 0", printable(item)));
         constexpr double likelyMicrometres = 100;
         if (!stated && *value < likelyMicrometres)
             throw InputError(header.where(*list),
                              fmt::format("'wavelength units' are missing, and {} may well be micrometres: "
                                          "add 'wavelength units = Micrometers' or Nanometers",
-                                         item));
+                                         printable(item)));
         nm.push_back(*value);
     }
     if (nm.size() != bands)

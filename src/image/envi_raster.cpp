@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "image/cube_check.h"
 #include "image/exr_layout.h"
+#include "image/printable.h"
 
 #include <fmt/format.h>
 
@@ -73,7 +74,8 @@ Interleave interleaveOf(const Header& header, const SourceLocation& file) {
     if (word == "bsq") return Interleave::bsq;
     if (word == "bil") return Interleave::bil;
     if (word == "bip") return Interleave::bip;
-    throw InputError(header.where(*field), "interleave '" + field->value + "' (allowed: bsq, bil, bip)");
+    throw InputError(header.where(*field),
+                     "interleave '" + printable(field->value) + "' (allowed: bsq, bil, bip)");
 }
 
 /// What readers that go on would get wrong.
@@ -81,7 +83,8 @@ void refuseOtherFiles(const Header& header) {
     if (const Field* type = header.find("file type")) {
         const std::string word = lowerCase(type->value);
         if (word != "envi standard" && word != "envi" && !word.empty())
-            throw InputError(header.where(*type), "file type '" + type->value + "' (allowed: ENVI Standard)");
+            throw InputError(header.where(*type),
+                             "file type '" + printable(type->value) + "' (allowed: ENVI Standard)");
     }
     if (const Field* packed = header.find("file compression"); packed && packed->value != "0")
         throw InputError(header.where(*packed), "the data are compressed");
@@ -98,7 +101,7 @@ void readQuantity(const Header& header, Raster& raster, const SourceLocation& fi
         const auto kind = parseCubeKind(quantity->value);
         if (!kind)
             throw InputError(header.where(*quantity),
-                             "quantity '" + quantity->value +
+                             "quantity '" + printable(quantity->value) +
                                  "' (allowed: radiance, irradiance, reflectance, transmittance)");
         raster.info.kind = *kind;
     }
@@ -122,13 +125,14 @@ void readQuantity(const Header& header, Raster& raster, const SourceLocation& fi
     const auto known =
         std::find_if(radianceUnits.begin(), radianceUnits.end(), [&](auto& u) { return u.first == bare; });
     if (known == radianceUnits.end()) {
-        notes.warn(header.where(*units), "data units '" + units->value + "' are read as W/(m^2 sr nm)");
+        notes.warn(header.where(*units),
+                   "data units '" + printable(units->value) + "' are read as W/(m^2 sr nm)");
         return;
     }
     raster.scale = known->second;
     if (raster.scale != 1)
-        notes.say(
-            fmt::format("{}: {} x {} = W/(m^2 sr nm)", file.file, units->value, shortest(raster.scale)));
+        notes.say(fmt::format("{}: {} x {} = W/(m^2 sr nm)", file.file, printable(units->value),
+                              shortest(raster.scale)));
 }
 
 /// Sorts the bands by wavelength.
@@ -149,8 +153,8 @@ void readWavelengths(const Header& header, size_t bands, Raster& raster, Notes& 
     Wavelengths& grid = raster.info.wavelengths;
     const Field* projection = header.find(std::string(ourPrefix) + exr::projection);
     raster.info.projectionStated = projection != nullptr;
-    grid.projection =
-        projection ? parseProjection(projection->value, header.where(*projection)) : Projection::point;
+    grid.projection = projection ? parseProjection(printable(projection->value), header.where(*projection))
+                                 : Projection::point;
     if (const auto step = header.number(std::string(ourPrefix) + exr::step)) {
         if (*step <= 0)
             throw InputError(header.where(*header.find(std::string(ourPrefix) + exr::step)),

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "image/channel_names.h"
+#include "image/printable.h"
 
 #include <fmt/format.h>
 
@@ -55,16 +56,17 @@ void checkBands(const std::vector<Found>& bands, const Imf::ChannelList& channel
     for (size_t j = 0; j < bands.size(); ++j) {
         const Found& band = bands[j];
         if (!std::isfinite(band.nm) || band.nm <= 0)
-            throw InputError(where, "channel '" + band.name + "' has no wavelength above 0");
+            throw InputError(where, "channel '" + printable(band.name) + "' has no wavelength above 0");
         const Imf::Channel& channel = channels[band.name];
         if (channel.xSampling != 1 || channel.ySampling != 1)
-            throw InputError(where, fmt::format("channel '{}' is subsampled {}x{} (allowed: 1x1)", band.name,
-                                                channel.xSampling, channel.ySampling));
+            throw InputError(where, fmt::format("channel '{}' is subsampled {}x{} (allowed: 1x1)",
+                                                printable(band.name), channel.xSampling, channel.ySampling));
         // Two spellings of one wavelength may differ in the last place of a double (a frequency's division).
         constexpr double rounding = 1e-15;
         if (j > 0 && band.nm - bands[j - 1].nm <= rounding * band.nm)
-            throw InputError(where, fmt::format("channels '{}' and '{}' are both {} nm", bands[j - 1].name,
-                                                band.name, shortest(band.nm)));
+            throw InputError(
+                where, fmt::format("channels '{}' and '{}' are both {} nm", printable(bands[j - 1].name),
+                                   printable(band.name), shortest(band.nm)));
     }
 }
 
@@ -86,7 +88,7 @@ ExrBands findBands(const Imf::ChannelList& channels, const std::filesystem::path
     }
     if (!misspelt.empty())
         notes.warn(where, fmt::format("{} channels are not of the spectral layout, '{}' for one; ignored",
-                                      misspelt.size(), misspelt.front()));
+                                      misspelt.size(), printable(misspelt.front())));
 
     Group* group = &plain;
     const auto filled = [](const auto& g) {
@@ -97,7 +99,8 @@ ExrBands findBands(const Imf::ChannelList& channels, const std::filesystem::path
         if (first != groups.end()) {
             group = &first->second;
             notes.warn(where, fmt::format("the channels of the group '{}' are read, of {} spectral groups",
-                                          first->first, std::count_if(groups.begin(), groups.end(), filled)));
+                                          printable(first->first),
+                                          std::count_if(groups.begin(), groups.end(), filled)));
         }
     }
     ExrBands bands;

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "image/curves.h"
+#include "image/printable.h"
 
 #include <ImfChannelList.h>
 #include <ImfChromaticities.h>
@@ -197,7 +198,7 @@ CubeInfo cubeInfoFrom(const Imf::Header& header, bool emissive, std::vector<doub
 
     const std::string* version = findText(header, exr::layoutVersion);
     if (!version || *version != "1.0")
-        notes.warn(where, version ? "spectralLayoutVersion is '" + *version + "', read as 1.0"
+        notes.warn(where, version ? "spectralLayoutVersion is '" + printable(*version) + "', read as 1.0"
                                   : "no spectralLayoutVersion, read as 1.0");
     info.kind = emissive ? CubeKind::radiance : CubeKind::reflectance;
     const std::string* quantity = findText(header, ours(exr::quantity));
@@ -205,12 +206,13 @@ CubeInfo cubeInfoFrom(const Imf::Header& header, bool emissive, std::vector<doub
     if (quantity) {
         const auto kind = parseCubeKind(*quantity);
         if (!kind || wordsOf(*kind).unit.empty() == emissive)
-            throw InputError(where, "spectrad:quantity is '" + *quantity + "', which its channels are not");
+            throw InputError(
+                where, "spectrad:quantity is '" + printable(*quantity) + "', which its channels are not");
         info.kind = *kind;
     } else if (emissive && units && (*units == "W.m^-2" || *units == "W.m^-2.nm^-1")) {
         info.kind = CubeKind::irradiance;
     } else if (emissive && (!units || (*units != "W.m^-2.sr^-1" && *units != "W.m^-2.sr^-1.nm^-1"))) {
-        notes.warn(where, (units ? "emissiveUnits is '" + *units + "'" : "no emissiveUnits") +
+        notes.warn(where, (units ? "emissiveUnits is '" + printable(*units) + "'" : "no emissiveUnits") +
                               ", read as W.m^-2.sr^-1.nm^-1");
     }
 
@@ -224,11 +226,12 @@ CubeInfo cubeInfoFrom(const Imf::Header& header, bool emissive, std::vector<doub
     // Without our attribute the values are points, the layout's own reading of a band.
     const std::string* projection = findText(header, ours(exr::projection));
     info.projectionStated = projection != nullptr;
-    info.wavelengths.projection = projection ? parseProjection(*projection, where) : Projection::point;
+    info.wavelengths.projection =
+        projection ? parseProjection(printable(*projection), where) : Projection::point;
     if (const std::string* text = findText(header, ours(exr::step))) {
         const auto step = parseDouble(*text);
         if (!step || *step <= 0)
-            throw InputError(where, "spectrad:step is '" + *text + "' (allowed: nm, above 0)");
+            throw InputError(where, "spectrad:step is '" + printable(*text) + "' (allowed: nm, above 0)");
         info.wavelengths.step = *step;
     }
 

@@ -4,6 +4,7 @@
 #include "image/exr_bands.h"
 #include "image/exr_layout.h"
 #include "image/exr_sink.h"
+#include "image/printable.h"
 
 #include <ImfFrameBuffer.h>
 #include <ImfInputPart.h>
@@ -31,7 +32,8 @@ auto readingExr(const std::filesystem::path& path, Read read) {
         throw InputError({path.string()}, "damaged, or more than the memory of this machine holds");
     } catch (const std::exception& error) {
         std::string words = error.what();
-        std::replace(words.begin(), words.end(), '\n', ' ');
+        std::replace_if(
+            words.begin(), words.end(), [](unsigned char c) { return c < ' '; }, ' ');
         throw InputError({path.string()}, "cannot be read as EXR: " + words);
     }
 }
@@ -48,7 +50,7 @@ std::string someChannels(const Imf::ChannelList& channels) {
     int count = 0;
     constexpr int most = 8;
     for (auto it = channels.begin(); it != channels.end(); ++it)
-        if (count++ < most) list += (list.empty() ? "" : ", ") + std::string(it.name());
+        if (count++ < most) list += (list.empty() ? "" : ", ") + printable(it.name());
     return count > most ? fmt::format("{}, … ({} in all)", list, count) : list;
 }
 

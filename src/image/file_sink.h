@@ -8,9 +8,9 @@
 
 namespace spectrad {
 
-/// write, seek and close throw MachineError naming `target` and the system's reason, and does so again after the
-/// first failure: a caller that must swallow one (OpenEXR's destructor, which writes the table without which
-/// a file cannot be read) hears of it from close().
+/// write, seek and close throw MachineError naming `target` and the system's reason, and does so again after
+/// the first failure: a caller that must swallow one (OpenEXR's destructor, which writes the table without
+/// which a file cannot be read) hears of it from close().
 class FileSink {
   public:
     FileSink(const std::filesystem::path& path, const std::filesystem::path& target);

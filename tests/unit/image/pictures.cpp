@@ -1,0 +1,80 @@
+#include "image/picture.h"
+#include "samples.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfStringAttribute.h>
+#include <catch2/catch.hpp>
+
+using namespace spectrad;
+using namespace spectrad::test;
+using Catch::Matchers::Contains;
+
+TEST_CASE("a PNG comes back with the same pixels, in grey, RGB and RGBA") {
+    const int channels = GENERATE(1, 3, 4);
+    const Folder folder;
+    Picture8 picture{7, 5, channels, std::vector<std::uint8_t>(static_cast<size_t>(35 * channels))};
+    for (size_t i = 0; i < picture.pixels.size(); ++i)
+        picture.pixels[i] = static_cast<std::uint8_t>(i * 37);
+    writePng(folder / "a.png", picture);
+    const Picture8 back = readPng(folder / "a.png");
+    CHECK(back.width == 7);
+    CHECK(back.height == 5);
+    CHECK(back.channels == channels);
+    CHECK(back.pixels == picture.pixels);
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("a PNG says that it is sRGB, unless it is not, and holds its texts") {
+    const Folder folder;
+    const Picture8 picture{1, 1, 3, {1, 2, 3}};
+    writePng(folder / "a.png", picture, {{"Software", "Spectrad"}, {"Comment", "λ"}, {"Empty", ""}});
+    const std::string bytes = bytesOf(folder / "a.png");
+    CHECK_THAT(bytes, Contains("sRGB") && Contains("tEXt") && Contains("iTXt") && Contains("λ"));
+    writePng(folder / "b.png", picture, {}, false);
+    CHECK_THAT(bytesOf(folder / "b.png"), !Contains("sRGB") && !Contains("tEXt"));
+    CHECK(readPng(folder / "b.png").pixels == picture.pixels);
+}
+
+TEST_CASE("a picture that is none, or a place that cannot be written, is an error") {
+    const Folder folder;
+    CHECK_THROWS_AS(writePng(folder / "a.png", {2, 2, 3, std::vector<std::uint8_t>(11)}), InputError);
+    CHECK_THROWS_AS(writePng(folder / "a.png", {0, 0, 3, {}}), InputError);
+    CHECK_THROWS_AS(writePng(folder / "a.png", {1, 1, 2, {0, 0}}), InputError);
+    CHECK_THROWS_AS(writePng(folder / "a.png", {1, 1, 1, {0}}, {{"", "x"}}), InputError);
+    CHECK_THROWS_AS(writePng(folder / "none/a.png", {1, 1, 1, {0}}), MachineError);
+    CHECK_THROWS_AS(readPng(folder / "absent.png"), InputError);
+    CHECK(folder.files() == 0);
+}
+
+TEST_CASE("a detector's channels come back from their EXR bit by bit, with attributes") {
+    const Folder folder;
+    const std::vector<std::vector<float>> planes{{1, 2, 3, 4, 5, 6}, {0.5f, -1, 1e30f, 0, 1e-40f, 7}};
+    writeChannelsExr(folder / "a.exr", 3, 2, {"X", "Y"}, planes, {{"observer", "CIE 1931"}});
+    Imf::InputFile file((folder / "a.exr").c_str());
+    std::vector<std::vector<float>> back(2, std::vector<float>(6));
+    Imf::FrameBuffer frame;
+    frame.insert("X", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(back[0].data()), 4, 12));
+    frame.insert("Y", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(back[1].data()), 4, 12));
+    file.setFrameBuffer(frame);
+    file.readPixels(0, 1);
+    CHECK(back == planes);
+    CHECK(file.header().typedAttribute<Imf::StringAttribute>("observer").value() == "CIE 1931");
+    CHECK(folder.files() == 1);
+}
+
+TEST_CASE("channels that are no image are refused") {
+    const Folder folder;
+    const std::vector<float> plane(4, 1.0f);
+    CHECK_THROWS_AS(writeChannelsExr(folder / "a.exr", 2, 2, {"X"}, {}, {}), InputError);
+    CHECK_THROWS_AS(writeChannelsExr(folder / "a.exr", 2, 3, {"X"}, {plane}, {}), InputError);
+    CHECK_THROWS_AS(writeChannelsExr(folder / "a.exr", 2, 2, {"X", "X"}, {plane, plane}, {}), InputError);
+    const std::vector<float> bad{1, 1, std::numeric_limits<float>::infinity(), 1};
+    CHECK_THROWS_WITH(writeChannelsExr(folder / "a.exr", 2, 2, {"X"}, {bad}, {}),
+                      Contains("pixel 0,1, channel X"));
+    CHECK_THROWS_AS(writeChannelsExr(folder / "a.exr", 2, 2, {"X"}, {plane}, {{"channels", "x"}}),
+                    InputError);
+    CHECK(folder.files() == 0);
+}
