@@ -31,13 +31,9 @@ Diffuse readDiffuse(Reading& reading, const Element& element) {
     return diffuse;
 }
 
-/// An index of refraction; `curves` is 1 for a dielectric (n), 2 for a metal (n, k). A plain number is a
-/// constant n.
+/// An index of refraction; `curves` is 1 for a dielectric (n), 2 for a metal (n, k).
 Spectrum readIndex(Reading& reading, const Element& element, size_t curves) {
-    const std::string text = element.text("ior");
-    Spectrum index = parseDouble(text)
-                         ? reading.resolver.resolve("constant:" + text, Role::index, element.where("ior"))
-                         : reading.spectrum(element, "ior", Role::index);
+    Spectrum index = reading.spectrum(element, "ior", Role::index);
     if (index.curves.size() != curves)
         element.fail(
             "ior",

@@ -21,6 +21,8 @@ const ImportedScene& importedOnce(Reading& reading, const std::filesystem::path&
         } catch (const InputError& error) {
             throw InputError(element.where("file"), error.what());
         }
+        for (const std::string& read : model->filesRead)
+            reading.files.add(read);
     }
     return *model;
 }

@@ -51,13 +51,19 @@ Spectrum readBody(const Element& element, const std::string& body) {
     return spectrum;
 }
 
-/// The quantity that the element states must be the data's own, where they state one and mean it absolutely.
-void stateQuantity(const Element& element, Spectrum& spectrum) {
-    if (!element.has("quantity")) return;
-    const Quantity stated = parseQuantity(element.text("quantity"), element.where("quantity"));
-    const bool bothLight = roleOf(stated) == Role::light && roleOf(spectrum.quantity) == Role::light;
-    if (spectrum.quantity != Quantity::unknown && spectrum.quantity != stated &&
-        !(bothLight && spectrum.relative))
+/// The quantity that the element states; unknown if it states none.
+Quantity statedQuantity(const Element& element) {
+    return element.has("quantity") ? parseQuantity(element.text("quantity"), element.where("quantity"))
+                                   : Quantity::unknown;
+}
+
+/// What the element states must be what the data are, where they say so themselves. A relative lamp has a
+/// shape only: it may stand for any quantity of light.
+void stateQuantity(const Element& element, Spectrum& spectrum, Quantity stated) {
+    if (stated == Quantity::unknown) return;
+    const bool lampShape =
+        spectrum.relative && roleOf(stated) == Role::light && roleOf(spectrum.quantity) == Role::light;
+    if (spectrum.quantity != Quantity::unknown && spectrum.quantity != stated && !lampShape)
         element.fail("quantity", fmt::format("the data are of quantity {}", name(spectrum.quantity)));
     spectrum.quantity = stated;
 }
@@ -71,21 +77,23 @@ void readSpectrum(Reading& reading, const Element& element) {
                                : "has its data twice (allowed: one of value=, file=, body)");
     if (!element.has("file")) element.refuse("column", "stands only beside 'file'");
 
+    const Quantity stated = statedQuantity(element);
+    const Role role = roleOf(stated);
     Spectrum spectrum;
     if (element.has("value")) {
-        spectrum = reading.resolver.resolve(element.text("value"), Role::any, element.where("value"));
+        spectrum = reading.resolver.resolve(element.text("value"), role, element.where("value"));
     } else if (hasBody) {
         spectrum = readBody(element, body);
+        spectrum.text = element.text("name");
     } else {
-        spectrum = reading.resolver.resolveFile(element.text("file"), element.text("column"), Role::any,
+        spectrum = reading.resolver.resolveFile(element.text("file"), element.text("column"), role,
                                                 element.where("file"));
     }
     for (const std::filesystem::path& file : spectrum.files)
         reading.files.add(file);
-    spectrum.text = element.text("name");
-    stateQuantity(element, spectrum);
+    stateQuantity(element, spectrum, stated);
     spectrum.relative = element.boolean("relative", spectrum.relative);
-    spectrum = reading.resolver.checked(std::move(spectrum), roleOf(spectrum.quantity), element.where());
+    spectrum = reading.resolver.checked(std::move(spectrum), role, element.where());
     reading.resolver.define(element.text("name"), std::move(spectrum), element.where());
 }
 
