@@ -11,38 +11,35 @@ namespace {
 
 constexpr double smallestIndex = 1, largestIndex = 6;
 
-/// The widest run of wavelengths (by ratio), in steps of half a percent, where the index is possible; nothing
-/// if none is.
-std::optional<NmRange> transparentWindow(const std::function<double(double)>& index) {
-    constexpr double firstNm = 100, lastNm = 1e6, ratio = 1.005;
-    std::optional<NmRange> widest;
-    double from = 0, last = 0;
-    for (double nm = firstNm; nm <= lastNm; nm *= ratio) {
-        const double n = index(nm);
-        if (!(n >= smallestIndex && n <= largestIndex)) {
-            from = 0;
-            continue;
-        }
-        if (from == 0) from = nm;
-        last = nm;
-        if (!widest || last / from > widest->second / widest->first) widest = NmRange{from, last};
+/// Steps of ten percent, from 1 nm on; between them cut where the formula bends.
+void dispersionBreaks(const std::function<double(double)>& index, double from, double to,
+                      std::vector<double>& out) {
+    constexpr double ratio = 1.1, shortestNm = 1;
+    for (double a = from; a < to;) {
+        const double b = std::min(std::max(a, shortestNm) * ratio, to);
+        appendSmoothBreaks(index, a, b, out);
+        if (b < to) out.push_back(b);
+        a = b;
     }
-    return widest;
 }
 
-std::optional<Curve> indexCurve(const std::function<double(double)>& index) {
-    const auto window = transparentWindow(index);
-    if (!window) return std::nullopt;
-    const auto breaks = [index](double from, double to, std::vector<double>& out) {
-        constexpr double ratio = 1.1;
-        for (double a = from; a < to;) {
-            const double b = std::min(a * ratio, to);
-            appendSmoothBreaks(index, a, b, out);
-            if (b < to) out.push_back(b);
-            a = b;
-        }
+bool isPossible(double n) {
+    return n >= smallestIndex && n <= largestIndex;
+}
+
+/// `raw` may be anything at a resonance, not a number included.
+std::optional<Curve> indexCurve(const std::function<double(double)>& raw) {
+    bool possible = false;
+    for (double nm = 100; nm <= 20'000 && !possible; nm *= 1.005)
+        possible = isPossible(raw(nm));
+    if (!possible) return std::nullopt;
+    const std::function<double(double)> index = [raw](double nm) {
+        const double n = raw(nm);
+        return n > smallestIndex ? std::min(n, largestIndex) : smallestIndex;
     };
-    return Curve::formula(index, breaks, *window).withOutside(Outside::hold);
+    return Curve::formula(index, [index](double from, double to, std::vector<double>& out) {
+        dispersionBreaks(index, from, to, out);
+    });
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ Spectrum plainFormula(Curve curve) {
 }
 
 Spectrum indexFormula(const Reading& reading, std::optional<Curve> curve) {
-    if (!curve) reading.fail("gives no index between 1 and 6 anywhere from 100 nm to 1 mm");
+    if (!curve) reading.fail("gives no index between 1 and 6 anywhere from 0.1 to 20 µm");
     Spectrum spectrum;
     spectrum.quantity = Quantity::index;
     spectrum.unit = "1";
