@@ -14,6 +14,6 @@ static inline ulong depth_word(float key, int orthographic) {
 }
 
 /* First and last pixel (of a row or column) whose samples may lie in [from, to], both SD_SUBPIXEL-ths from the centre.
- * half: half the image's extent in the same unit; offsets of samples within a pixel are 0..255. */
-static inline int first_pixel(int from, int half) { return (from + half) >> 8; }
-static inline int last_pixel(int to, int half) { return (to + half) >> 8; }
+ * half_size: half the image's extent in the same unit; offsets of samples within a pixel are 0..255. */
+static inline int first_pixel(int from, int half_size) { return (from + half_size) >> 8; }
+static inline int last_pixel(int to, int half_size) { return (to + half_size) >> 8; }

@@ -1,7 +1,7 @@
 /* Vertices: object space to camera space (double, so that places far from the origin keep their detail) and to the screen. */
 #include "prelude.h"
 
-/* One work-item a vertex. position, normal: 3 floats a vertex (normal only with HAS_NORMALS); draw: which placement. */
+/* One work-item a vertex. position, normal: 3 floats a vertex; draw: which placement. */
 kernel void transform(global const float* position, global const float* normal, global const uint* draw,
                       global const sd_draw* draws, sd_frame frame, uint count, global float* camera, global float* camera_normal,
                       global sd_vertex* screen) {
@@ -29,10 +29,8 @@ kernel void transform(global const float* position, global const float* normal, 
     s.depth_key = s.outside ? 0.0f : frame.orthographic ? (float)depth : (float)(1.0 / depth);
     screen[v] = s;
 
-#ifdef HAS_NORMALS
     const float nx = normal[3 * v], ny = normal[3 * v + 1], nz = normal[3 * v + 2];
     camera_normal[3 * v] = fma(d->normal[0], nx, fma(d->normal[1], ny, d->normal[2] * nz));
     camera_normal[3 * v + 1] = fma(d->normal[3], nx, fma(d->normal[4], ny, d->normal[5] * nz));
     camera_normal[3 * v + 2] = fma(d->normal[6], nx, fma(d->normal[7], ny, d->normal[8] * nz));
-#endif
 }

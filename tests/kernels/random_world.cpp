@@ -1,0 +1,197 @@
+#include "kernels/random_world.h"
+
+#include "render/coat_albedo.h"
+#include "render/samples.h"
+
+#include <cmath>
+#include <random>
+
+namespace spectrad {
+
+namespace {
+
+using Random = std::mt19937;
+double uniform(Random& random, double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); }
+
+void addLobe(World& world, int type, std::uint32_t& term, std::uint32_t count, std::uint32_t table, double alpha, const CoatAlbedo* coat) {
+    sd_lobe lobe{};
+    lobe.type = type;
+    lobe.term = term;
+    lobe.alpha = static_cast<float>(alpha);
+    lobe.ior = 1.5f;
+    lobe.table = table;
+    lobe.weight = 1;
+    if (coat) {
+        lobe.multiple = static_cast<float>(coat->multiple);
+        lobe.mean_through = static_cast<float>(coat->meanThrough);
+    }
+    world.lobes.push_back(lobe);
+    term += count;
+}
+
+void addMaterials(Plan& plan, std::uint32_t groups) {
+    World& world = plan.world;
+    std::uint32_t terms = 0;
+    const auto begin = [&] {
+        sd_material m{};
+        m.first_lobe = static_cast<sd_uint>(world.lobes.size());
+        m.first_term = terms;
+        world.materials.push_back(m);
+    };
+    const auto end = [&](std::uint32_t used) {
+        sd_material& m = world.materials.back();
+        m.lobes = static_cast<sd_uint>(world.lobes.size()) - m.first_lobe;
+        m.terms = used;
+        terms += used;
+    };
+    std::uint32_t term = 0;
+    begin(), addLobe(world, SD_LOBE_EMISSION, term, 1, 0, 0, nullptr), end(term);
+    term = 0;
+    begin(), addLobe(world, SD_LOBE_DIFFUSE, term, groups, 0, 0, nullptr), end(term);
+    for (double alpha : {0.25, 0.0}) {
+        const CoatAlbedo coat = coatAlbedo(1.5, alpha);
+        const auto table = static_cast<std::uint32_t>(world.tables.size());
+        world.tables.insert(world.tables.end(), coat.table.begin(), coat.table.end());
+        term = 0;
+        begin();
+        addLobe(world, SD_LOBE_COATED, term, groups, table, 0, &coat);
+        addLobe(world, SD_LOBE_COAT, term, groups, table, alpha, &coat);
+        end(term);
+    }
+    term = 0;
+    begin(), addLobe(world, SD_LOBE_EMISSION, term, 1, 0, 0, nullptr), addLobe(world, SD_LOBE_DIFFUSE, term, groups, 0, 0, nullptr), end(term);
+    plan.terms.bands = 7;
+    Random random(99);
+    for (std::uint32_t t = 0; t < terms; ++t) {
+        for (size_t b = 0; b < plan.terms.bands; ++b) plan.terms.spectra.push_back(static_cast<float>(uniform(random, 0, 2)));
+        for (size_t c = 0; c < 3; ++c) plan.terms.preview.push_back(static_cast<float>(uniform(random, -0.1, 2)));
+    }
+}
+
+void addLights(World& world) {
+    const auto add = [&](int type, float x, float y, float z, std::uint32_t group, float scale) {
+        sd_light l{};
+        l.type = type;
+        l.x = x, l.y = y, l.z = z;
+        l.axis_x = 0.6f, l.axis_y = -0.48f, l.axis_z = -0.64f;
+        l.cos_outer = 0.7f;
+        l.inv_cos_range = 1 / 0.2f;
+        l.group = group;
+        l.scale = scale;
+        world.lights.push_back(l);
+    };
+    add(SD_LIGHT_POINT, 1, 2, 0.5f, 0, 3);
+    add(SD_LIGHT_SPOT, -2, 2, 1, 1, 20);
+    add(SD_LIGHT_DIRECTIONAL, 0.48f, 0.6f, 0.64f, 0, 0.7f);
+    add(SD_LIGHT_AMBIENT, 0, 0, 0, 1, 0.4f);
+}
+
+Plan emptyPlan(int samples, bool orthographic, int width, int height) {
+    Plan plan;
+    plan.samples = samples;
+    plan.view.orthographic = orthographic;
+    plan.view.width = width;
+    plan.view.height = height;
+    plan.view.pixelsPerSlope = orthographic ? height / 4.0 : height * 0.9;
+    plan.wavelengths.nm = {400, 450, 500, 550, 600, 650, 700};
+    plan.defines = {"HAS_COAT", "HAS_AMBIENT", "HAS_POINT", "HAS_SPOT", "HAS_DIRECTIONAL", "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
+    sd_draw draw{};
+    draw.to_camera[0] = draw.to_camera[5] = draw.to_camera[10] = 1;
+    draw.normal[0] = draw.normal[4] = draw.normal[8] = 1;
+    plan.world.draws.push_back(draw);
+    addMaterials(plan, 2);
+    addLights(plan.world);
+    return plan;
+}
+
+void addVertex(World& world, double x, double y, double z, Random& random) {
+    for (double v : {x, y, z}) world.position.push_back(static_cast<float>(v));
+    for (int i = 0; i < 3; ++i) world.normal.push_back(static_cast<float>(uniform(random, -1, 1)));
+    world.vertexDraw.push_back(0);
+}
+
+void addTriangle(World& world, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    for (std::uint32_t i : {a, b, c}) world.index.push_back(i);
+    world.triangleMaterial.push_back(static_cast<std::uint32_t>(1 + world.triangleMaterial.size() % 4));
+}
+
+}  // namespace
+
+Plan randomPlan(unsigned seed, int samples, bool orthographic, int triangles, int height) {
+    Plan plan = emptyPlan(samples, orthographic, height * 3 / 2 + 5, height);
+    Random random(seed);
+    // A turned, moved and stretched placement as well.
+    sd_draw draw{};
+    const double c = std::cos(0.4), s = std::sin(0.4);
+    const double m[12] = {c, -s, 0, 0.1, s, c, 0, -0.2, 0, 0, 1.5, -0.3};
+    for (size_t i = 0; i < 12; ++i) draw.to_camera[i] = m[i];
+    const float n[9] = {static_cast<float>(c), static_cast<float>(-s), 0, static_cast<float>(s), static_cast<float>(c), 0, 0, 0, 0.7f};
+    for (size_t i = 0; i < 9; ++i) draw.normal[i] = n[i];
+    plan.world.draws.push_back(draw);
+    for (int t = 0; t < triangles; ++t) {
+        const double size = std::pow(10, uniform(random, -2.5, 0.5));
+        const double x = uniform(random, -3, 3), y = uniform(random, -2, 2), z = uniform(random, -8, -0.5);
+        const auto first = static_cast<std::uint32_t>(plan.world.vertexDraw.size());
+        for (int k = 0; k < 3; ++k) {
+            addVertex(plan.world, x + uniform(random, -size, size), y + uniform(random, -size, size), z + uniform(random, -size, size), random);
+            plan.world.vertexDraw.back() = static_cast<std::uint32_t>(t % 2);
+        }
+        addTriangle(plan.world, first, first + 1, first + 2);
+    }
+    return plan;
+}
+
+Plan adversarialPlan(unsigned seed, bool orthographic) {
+    Plan plan = emptyPlan(seed % 3 == 0 ? 1 : 16, orthographic, 70, 33);
+    World& world = plan.world;
+    Random random(seed);
+    const auto corner = [&](double x, double y, double z) {
+        addVertex(world, x, y, z, random);
+        return static_cast<std::uint32_t>(world.vertexDraw.size() - 1);
+    };
+    const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { addTriangle(world, a, b, c); };
+    // Corners exactly on samples and pixel borders, collinear and coincident corners.
+    const double pixel = 1 / plan.view.pixelsPerSlope;
+    const auto onGrid = [&](double col, double row, double z) {
+        const double reach = orthographic ? 1 : -z;
+        return corner((col - 35) * pixel * reach, (16.5 - row) * pixel * reach, z);
+    };
+    triangle(onGrid(10, 5, -2), onGrid(20, 5, -2), onGrid(10, 15, -2));
+    triangle(onGrid(20, 5, -2), onGrid(20, 15, -2), onGrid(10, 15, -2));
+    triangle(onGrid(30.5, 5.5, -3), onGrid(40.5, 5.5, -3), onGrid(30.5, 15.5, -3));
+    triangle(onGrid(1, 1, -2), onGrid(3, 3, -2), onGrid(5, 5, -2));
+    const std::uint32_t point = onGrid(50, 10, -2);
+    triangle(point, point, onGrid(52, 11, -2));
+    // Through and behind the eye, huge, far away, slivers.
+    triangle(corner(-1, -0.5, 1), corner(1, -0.5, 1), corner(0, -0.5, -1e6));
+    triangle(corner(-1e6, -1, -1), corner(1e6, -1, -1), corner(0, 1e6, -2));
+    triangle(corner(0.3, 0.2, 5), corner(-0.3, 0.2, 5), corner(0, 0.4, 3));
+    triangle(corner(0.3, 0.2, -1e-9), corner(-3e-9, 0.2, -2e-9), corner(0, 4, -1e9));
+    triangle(corner(-1e8, -1e7, -1e9), corner(1e8, -1e7, -1e9), corner(0, 1e8, -1e9));
+    triangle(corner(-2, 0, -3), corner(2, 1e-8, -3), corner(2, 0, -3));
+    triangle(corner(-2, 0.4, -3), corner(2, 0.4 + 1e-3, -3), corner(0, 0.4 + 2e-3, -3));
+    // The same one twice: the lower number wins everywhere.
+    const std::uint32_t a = corner(-0.8, 0.3, -4), b = corner(0.7, 0.1, -4), c = corner(0.1, 1.2, -4);
+    triangle(a, b, c);
+    triangle(a, b, c);
+    triangle(c, b, a);
+    // A fan around one corner that also reaches behind the eye.
+    const std::uint32_t centre = corner(0.05, -0.1, -1.5);
+    std::uint32_t last = corner(2, -0.1, 0.2);
+    for (int k = 1; k <= 12; ++k) {
+        const double angle = 2 * 3.141592653589793 * k / 12;
+        const std::uint32_t next = corner(2 * std::cos(angle), -0.1 + 1.4 * std::sin(angle), -1.5 + 1.7 * std::cos(angle * 2 + seed));
+        triangle(centre, last, next);
+        last = next;
+    }
+    for (int t = 0; t < 40; ++t) {
+        const double scale = std::pow(10, uniform(random, -9, 9));
+        const std::uint32_t p = corner(uniform(random, -1, 1) * scale, uniform(random, -1, 1) * scale, uniform(random, -1, 0.3) * scale);
+        const std::uint32_t q = corner(uniform(random, -1, 1) * scale, uniform(random, -1, 1) * scale, uniform(random, -1, 0.3) * scale);
+        const std::uint32_t r = corner(uniform(random, -1, 1) * scale, uniform(random, -1, 1) * scale, uniform(random, -1, 0.3) * scale);
+        triangle(p, q, r);
+    }
+    return plan;
+}
+
+}  // namespace spectrad

@@ -1,0 +1,41 @@
+// Scalar C++ twins of the kernels, sample by sample and term by term, in the same arithmetic: float where they use float, fused
+// where they fuse. What they compute must agree with the devices bit for bit.
+#pragma once
+
+#include "render/plan.h"
+#include "render/samples.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace spectrad::twin {
+
+struct Vertices {
+    std::vector<float> camera, normal;  // three a vertex
+    std::vector<sd_vertex> screen;
+};
+Vertices transform(const World& world, const sd_frame& frame);
+
+/// The frame that the renderer makes for a plan, whole image as one strip.
+sd_frame frameOf(const Plan& plan);
+
+/// Keys of all samples, [row][x < pitch][slot], of pixels x < width (the padding stays empty).
+std::vector<std::uint64_t> cover(const World& world, const Vertices& vertices, const sd_frame& frame, const LanePattern& lanes);
+
+/// g of one pixel: one float per term of the pixel's block, in the block's order of terms.
+struct Block {
+    std::vector<std::uint32_t> term;
+    std::vector<float> g;  // [term][SD_BLOCK]
+};
+/// `vectorWidth` decides the order in which samples are added (pairwise within 16 lanes, or one after another).
+Block light(const Plan& plan, const Vertices& vertices, const sd_frame& frame, const LanePattern& lanes,
+            const std::vector<std::uint64_t>& keys, int row, int blockColumn, int vectorWidth);
+
+/// [band][SD_BLOCK]
+std::vector<float> expand(const Block& block, const std::vector<float>& spectra, size_t bands);
+
+/// Fresnel, table look-up and lobe of one sample: exposed for the comparison with double precision.
+float coatBrdf(const sd_lobe& lobe, float cosView, float cosLight, float cosHalf, float acrossSquare, float cosDiff,
+               float missingView, float missingLight);
+
+}  // namespace spectrad::twin

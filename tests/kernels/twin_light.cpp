@@ -1,0 +1,242 @@
+#include "kernels/twin.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+
+namespace spectrad::twin {
+
+namespace {
+
+struct V {
+    float x, y, z;
+};
+float dot(V a, V b) { return std::fma(a.z, b.z, std::fma(a.y, b.y, a.x * b.x)); }
+V scaled(V a, float s) { return {a.x * s, a.y * s, a.z * s}; }
+V crossed(V a, V b) {
+    return {std::fma(a.y, b.z, -(a.z * b.y)), std::fma(a.z, b.x, -(a.x * b.z)), std::fma(a.x, b.y, -(a.y * b.x))};
+}
+V unit(V a) {
+    const float square = dot(a, a);
+    return scaled(a, 1.0f / std::sqrt(square == 0.0f ? 1.0f : square));
+}
+
+struct Surface {
+    V position, normal, view;
+    float cosView;
+};
+
+float mixed(float b0, float v0, float b1, float v1, float b2, float v2) { return std::fma(b2, v2, std::fma(b1, v1, b0 * v0)); }
+
+Surface surfaceAt(const World& world, const Vertices& vertices, const sd_frame& frame, std::uint32_t triangle, float x, float y) {
+    std::array<const float*, 3> p{}, n{};
+    for (size_t k = 0; k < 3; ++k) {
+        p[k] = vertices.camera.data() + 3 * size_t{world.index[3 * size_t{triangle} + k]};
+        n[k] = vertices.normal.data() + 3 * size_t{world.index[3 * size_t{triangle} + k]};
+    }
+    const float rx = x * frame.slope_per_subpixel, ry = -(y * frame.slope_per_subpixel);
+    std::array<float, 3> u{}, v{};
+    for (size_t k = 0; k < 3; ++k) {
+        u[k] = frame.orthographic ? p[k][0] - rx : std::fma(rx, p[k][2], p[k][0]);
+        v[k] = frame.orthographic ? p[k][1] - ry : std::fma(ry, p[k][2], p[k][1]);
+    }
+    float b0 = std::fma(u[1], v[2], -(u[2] * v[1])), b1 = std::fma(u[2], v[0], -(u[0] * v[2])), b2 = std::fma(u[0], v[1], -(u[1] * v[0]));
+    const float turn = std::copysign(1.0f, b0 + b1 + b2);
+    b0 = std::fmax(b0 * turn, 0.0f), b1 = std::fmax(b1 * turn, 0.0f), b2 = std::fmax(b2 * turn, 0.0f);
+    const float sum = b0 + b1 + b2;
+    if (sum > 0) {
+        const float inv = 1.0f / sum;
+        b0 *= inv, b1 *= inv, b2 *= inv;
+    } else {
+        b0 = b1 = b2 = 1.0f / 3.0f;
+    }
+    Surface s{};
+    s.position = {mixed(b0, p[0][0], b1, p[1][0], b2, p[2][0]), mixed(b0, p[0][1], b1, p[1][1], b2, p[2][1]),
+                  mixed(b0, p[0][2], b1, p[1][2], b2, p[2][2])};
+    V normal{mixed(b0, n[0][0], b1, n[1][0], b2, n[2][0]), mixed(b0, n[0][1], b1, n[1][1], b2, n[2][1]),
+             mixed(b0, n[0][2], b1, n[1][2], b2, n[2][2])};
+    s.view = frame.orthographic ? V{0, 0, 1} : unit({-s.position.x, -s.position.y, -s.position.z});
+    const V e1{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]}, e2{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
+    const V face = crossed(e1, e2);
+    const float seen = dot(face, s.view), along = dot(face, normal);
+    normal = unit(normal);
+    s.normal = scaled(normal, std::copysign(1.0f, seen) * std::copysign(1.0f, along));
+    s.cosView = std::fmax(dot(s.normal, s.view), 1e-5f);
+    return s;
+}
+
+constexpr float inversePi = 0.31830988618379067f;
+
+void lookUp(const sd_albedo* table, float cosine, float& through, float& missing) {
+    const float at = std::clamp(cosine, 0.0f, 1.0f) * static_cast<float>(SD_TABLE_CELLS);
+    const int cell = std::min(static_cast<int>(at), SD_TABLE_CELLS - 1);
+    const float t = at - static_cast<float>(cell);
+    const sd_albedo from = table[cell], to = table[cell + 1];
+    through = std::fma(t, to.through - from.through, from.through);
+    missing = std::fma(t, to.missing - from.missing, from.missing);
+}
+
+float fresnel(float c, float n) {
+    const float square = std::fma(c, c, n * n - 1.0f);
+    if (square < 0) return 1;
+    const float g = std::sqrt(std::fmax(square, 0.0f));
+    const float a = (g - c) / (g + c), b = std::fma(c, g + c, -1.0f) / std::fma(c, g - c, 1.0f);
+    return 0.5f * a * a * std::fma(b, b, 1.0f);
+}
+
+}  // namespace
+
+float coatBrdf(const sd_lobe& lobe, float cosView, float cosLight, float cosHalf, float acrossSquare, float cosDiff,
+               float missingView, float missingLight) {
+    const float a2 = lobe.alpha * lobe.alpha;
+    const float width = std::fma(cosHalf * cosHalf, a2, acrossSquare);
+    const float shadowView = cosLight * std::sqrt(std::fma(cosView * cosView, 1.0f - a2, a2));
+    const float shadowLight = cosView * std::sqrt(std::fma(cosLight * cosLight, 1.0f - a2, a2));
+    const float facets = (a2 * inversePi) / (width * width) * 0.5f / (shadowView + shadowLight);
+    return std::fma(facets, fresnel(cosDiff, lobe.ior), missingView * missingLight * lobe.multiple);
+}
+
+namespace {
+
+float arriving(const sd_light& light, V position, V& toLight) {
+    if (light.type == SD_LIGHT_DIRECTIONAL) {
+        toLight = {light.x, light.y, light.z};
+        return light.scale;
+    }
+    const V d{light.x - position.x, light.y - position.y, light.z - position.z};
+    const float square = dot(d, d);
+    const float inv = 1.0f / (square == 0.0f ? 1.0f : square);
+    toLight = scaled(d, std::sqrt(inv));
+    float strength = light.scale * inv;
+    if (light.type == SD_LIGHT_SPOT) {
+        const V axis{-light.axis_x, -light.axis_y, -light.axis_z};
+        const float t = std::clamp((dot(axis, toLight) - light.cos_outer) * light.inv_cos_range, 0.0f, 1.0f);
+        strength = strength * (t * t * std::fma(-2.0f, t, 3.0f));
+    }
+    return square == 0.0f ? 0.0f : strength;
+}
+
+/// Calls add(call, term, g) for every lobe and light that add to one sample; `call` numbers (lobe, light) pairs.
+void shade(const World& world, const sd_material& material, const Surface& s,
+           const std::function<void(size_t, std::uint32_t, float)>& add) {
+    const size_t lights = world.lights.size();
+    for (std::uint32_t l = 0; l < material.lobes; ++l) {
+        const sd_lobe& lobe = world.lobes[material.first_lobe + l];
+        if (lobe.type == SD_LOBE_EMISSION) {
+            add(l * (lights + 1), lobe.term, 1.0f);
+            continue;
+        }
+        const sd_albedo* table = world.tables.data() + lobe.table;
+        float throughView = 1, missingView = 0;
+        if (lobe.type != SD_LOBE_DIFFUSE) lookUp(table, s.cosView, throughView, missingView);
+        for (size_t k = 0; k < lights; ++k) {
+            const sd_light& light = world.lights[k];
+            const size_t call = l * (lights + 1) + k;
+            if (light.type == SD_LIGHT_AMBIENT) {
+                float g = light.scale;
+                if (lobe.type == SD_LOBE_COATED) g = light.scale * throughView * lobe.mean_through;
+                if (lobe.type == SD_LOBE_COAT) g = light.scale * inversePi * (1.0f - throughView);
+                add(call, lobe.term + light.group, g);
+                continue;
+            }
+            V toLight{};
+            const float strength = arriving(light, s.position, toLight);
+            const float cosLight = dot(s.normal, toLight);
+            if (!(cosLight > 0)) continue;
+            float g = strength * cosLight;
+            if (lobe.type != SD_LOBE_DIFFUSE) {
+                float throughLight = 1, missingLight = 0;
+                lookUp(table, cosLight, throughLight, missingLight);
+                if (lobe.type == SD_LOBE_COATED) g = g * (throughView * throughLight);
+                if (lobe.type == SD_LOBE_COAT) {
+                    if (lobe.alpha == 0) continue;
+                    const V h = unit({toLight.x + s.view.x, toLight.y + s.view.y, toLight.z + s.view.z});
+                    const V across = crossed(s.normal, h);
+                    g = g * coatBrdf(lobe, s.cosView, cosLight, dot(s.normal, h), dot(across, across), std::clamp(dot(s.view, h), 0.0f, 1.0f),
+                                     missingView, missingLight);
+                }
+            }
+            add(call, lobe.term + light.group, g);
+        }
+    }
+}
+
+float pairwise(const std::vector<float>& v, size_t from, size_t count) {
+    if (count == 1) return v[from];
+    return pairwise(v, from, count / 2) + pairwise(v, from + count / 2, count / 2);
+}
+
+}  // namespace
+
+Block light(const Plan& plan, const Vertices& vertices, const sd_frame& frame, const LanePattern& lanes,
+            const std::vector<std::uint64_t>& keys, int row, int blockColumn, int vectorWidth) {
+    const World& world = plan.world;
+    const size_t slots = lanes.slotX.size();
+    const std::uint64_t* cells = keys.data() + (static_cast<size_t>(row) * static_cast<size_t>(frame.pitch) + static_cast<size_t>(blockColumn) * SD_BLOCK) * slots;
+    std::set<std::uint32_t> materials;
+    const auto materialOf = [&](std::uint64_t key) {
+        const auto id = static_cast<std::uint32_t>(key);
+        return id == 0xffffffffu ? 0u : world.triangleMaterial[id];
+    };
+    for (size_t i = 0; i < SD_BLOCK * slots; ++i) materials.insert(materialOf(cells[i]));
+    Block block;
+    std::vector<size_t> offset(world.materials.size());
+    for (std::uint32_t m : materials) {
+        offset[m] = block.term.size();
+        for (std::uint32_t t = 0; t < world.materials[m].terms; ++t) block.term.push_back(world.materials[m].first_term + t);
+    }
+    block.g.assign(block.term.size() * SD_BLOCK, 0.0f);
+    const auto lanesAtOnce = static_cast<size_t>(vectorWidth);
+    const size_t group = std::min(slots, lanesAtOnce);  // lanes of one pixel that are added pairwise
+    for (size_t lane = 0; lane < SD_BLOCK * slots; lane += group) {
+        const size_t x = lane / slots;
+        // As the kernel: triangle by triangle of the vector, in the order of their first lanes; g of lanes that do not see it is 0.
+        const size_t vectorStart = lane / lanesAtOnce * lanesAtOnce;
+        std::vector<std::uint32_t> order;
+        for (size_t i = vectorStart; i < vectorStart + lanesAtOnce; ++i) {
+            const auto id = static_cast<std::uint32_t>(cells[i]);
+            if (lanes.used[i % slots] && std::find(order.begin(), order.end(), id) == order.end()) order.push_back(id);
+        }
+        for (std::uint32_t id : order) {
+            const std::uint32_t m = id == 0xffffffffu ? 0 : world.triangleMaterial[id];
+            const sd_material& material = world.materials[m];
+            // Each add of the kernel, in its order; lanes left at zero where the sample sees another triangle or no light.
+            std::map<size_t, std::pair<std::uint32_t, std::vector<float>>> adds;
+            for (size_t i = 0; i < group; ++i) {
+                if (!lanes.used[(lane + i) % slots] || static_cast<std::uint32_t>(cells[lane + i]) != id) continue;
+                const auto add = [&](size_t call, std::uint32_t term, float g) {
+                    auto& entry = adds.try_emplace(call, term, std::vector<float>(group, 0.0f)).first->second;
+                    entry.second[i] = g;
+                };
+                if (id == 0xffffffffu) {
+                    if (material.terms > 0) add(0, 0, 1.0f);
+                    continue;
+                }
+                const size_t slot = (lane + i) % slots;
+                const int sx = (blockColumn * SD_BLOCK + static_cast<int>(x)) * 256 - frame.width * 128 + lanes.slotX[slot];
+                const int sy = row * 256 - frame.height * 128 + lanes.slotY[slot];
+                shade(world, material, surfaceAt(world, vertices, frame, id, static_cast<float>(sx), static_cast<float>(sy)), add);
+            }
+            for (const auto& [call, entry] : adds)
+                block.g[(offset[m] + entry.first) * SD_BLOCK + x] += pairwise(entry.second, 0, group);
+        }
+    }
+    const float inverse = 1.0f / static_cast<float>(frame.samples);
+    for (float& g : block.g) g *= inverse;
+    return block;
+}
+
+std::vector<float> expand(const Block& block, const std::vector<float>& spectra, size_t bands) {
+    std::vector<float> out(bands * SD_BLOCK, 0.0f);
+    for (size_t band = 0; band < bands; ++band)
+        for (size_t t = 0; t < block.term.size(); ++t)
+            for (size_t x = 0; x < SD_BLOCK; ++x)
+                out[band * SD_BLOCK + x] = std::fma(spectra[block.term[t] * bands + band], block.g[t * SD_BLOCK + x], out[band * SD_BLOCK + x]);
+    return out;
+}
+
+}  // namespace spectrad::twin
