@@ -93,21 +93,21 @@ void setCoat(const aiMaterial& from, ImportedMaterial& to) {
         to.roughness = roughnessOfShininess(number(from, AI_MATKEY_SHININESS).value_or(0));
 }
 
-/// The material that Assimp invents for meshes without one; it is a plain grey then, like a scene's own
-/// default.
-bool inventedByAssimp(const aiMaterial& from, const FormatTraits& traits) {
+/// The material that Assimp invents for meshes without one (glTF: always the last); it is a plain grey then,
+/// like a scene's own default.
+bool inventedByAssimp(const aiMaterial& from, bool last, const FormatTraits& traits) {
+    if (traits.gltf) return last;
     if (std::string(from.GetName().C_Str()) != AI_DEFAULT_MATERIAL_NAME) return false;
     const auto c = colour(from, AI_MATKEY_COLOR_DIFFUSE);
-    const bool untouched = !c || (std::abs((*c)[0] - 0.6) < 1e-6 && std::abs((*c)[1] - 0.6) < 1e-6 &&
-                                  std::abs((*c)[2] - 0.6) < 1e-6);
-    return traits.gltf || untouched;
+    const auto is06 = [](double v) { return std::abs(v - 0.6) < 1e-6; };
+    return !c || (is06((*c)[0]) && is06((*c)[1]) && is06((*c)[2]));
 }
 
-ImportedMaterial convert(const aiMaterial& from, const FormatTraits& traits,
+ImportedMaterial convert(const aiMaterial& from, bool last, const FormatTraits& traits,
                          std::vector<std::string>& remarks) {
     ImportedMaterial to;
     to.name = oneLine(from.GetName().C_Str());
-    if (inventedByAssimp(from, traits)) return to;
+    if (inventedByAssimp(from, last, traits)) return to;
 
     const auto base = traits.gltf ? colour(from, AI_MATKEY_BASE_COLOR) : std::nullopt;
     const auto diffuse = base ? base : colour(from, AI_MATKEY_COLOR_DIFFUSE);
@@ -139,7 +139,7 @@ std::vector<ImportedMaterial> convertMaterials(const aiScene& from, const Format
     std::vector<std::string> textures;
     size_t transparent = 0;
     for (unsigned i = 0; i < from.mNumMaterials; ++i) {
-        materials.push_back(convert(*from.mMaterials[i], traits, remarks));
+        materials.push_back(convert(*from.mMaterials[i], i + 1 == from.mNumMaterials, traits, remarks));
         if (number(*from.mMaterials[i], AI_MATKEY_OPACITY).value_or(1) < 1) ++transparent;
         const std::string& texture = materials.back().diffuseTexture;
         if (!texture.empty() && std::find(textures.begin(), textures.end(), texture) == textures.end())

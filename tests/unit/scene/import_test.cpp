@@ -252,7 +252,7 @@ TEST_CASE(
 "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
 "materials":[{"name":"paint","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,1,1],"metallicFactor":0,"roughnessFactor":0.3},"emissiveFactor":[0.5,0,0]},
 {"name":"gold","pbrMetallicRoughness":{"baseColorFactor":[1,0.75,0.25,1],"metallicFactor":1,"roughnessFactor":0.2}}],
-"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]},{"primitives":[{"attributes":{"POSITION":0},"material":1}]}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]},{"primitives":[{"attributes":{"POSITION":0},"material":1}]},{"primitives":[{"attributes":{"POSITION":0}}]}],
 "cameras":[{"type":"perspective","perspective":{"yfov":0.7,"aspectRatio":1.5,"znear":0.1,"zfar":100}},{"type":"orthographic","orthographic":{"xmag":3,"ymag":2,"znear":0.1,"zfar":100}}],
 "extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","color":[1,0.5,0.25],"intensity":80,"spot":{"innerConeAngle":0.2,"outerConeAngle":0.4}},{"type":"directional","intensity":1000}]}},
 "nodes":[{"name":"top","children":[1,2,3,4,5,6],"translation":[0,1,0]},{"name":"left","mesh":0,"translation":[-2,0,0]},{"name":"right","mesh":0,"translation":[2,0,0]},
@@ -262,7 +262,9 @@ TEST_CASE(
     const ImportedScene s = importModel(file, false);
     CHECK(s.inMetres);
     CHECK(s.photometric);
-    REQUIRE(s.meshes.size() == 2);
+    REQUIRE(s.meshes.size() == 3);
+    CHECK(s.materials[s.meshMaterial[2]].diffuse[0] == 0.5);  // without a material: grey, as everywhere
+    CHECK_FALSE(s.materials[s.meshMaterial[2]].metal);
     const Found found = follow(s);
     REQUIRE(found.meshes.size() == 3);
     near(found.meshes[0], {-2, 1, 0});
