@@ -88,8 +88,9 @@ Emitter readEmitter(Reading& reading, const Element& element, SourceKind kind, c
     const Curve& curve = emitter.spectrum.curve();
     if (!isPhotometric(emitter.amount->unit) && !emitter.amount->over && curve.isConstant() && !curve.range())
         element.fail(attribute->c_str(),
-                     "a constant spectrum has no range of its own to integrate over; say one, as in "
-                     "'100 W/m2 over 400:700' (in this amount's unit)");
+                     fmt::format("a constant spectrum has no range of its own to integrate over; say one, "
+                                 "as in '{} over 400:700'",
+                                 element.text(attribute->c_str())));
     if (emitter.amount->value > 0 && curve.lines().empty() && curve.bounds().second <= 0)
         element.fail("spectrum",
                      fmt::format("the spectrum is zero everywhere, no factor gives it the amount of '{}'",

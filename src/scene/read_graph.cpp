@@ -110,6 +110,7 @@ std::optional<Index> readContent(Reading& reading, const Element& element, Index
 
 /// Nodes and cameras that imports brought can be named too, where the scene has not taken the name.
 void addImportedNames(Reading& reading) {
+    if (reading.cache.models.empty()) return;
     for (Index i = 0; i < reading.scene.nodes.size(); ++i)
         reading.nodes.addImported(reading.scene.nodes[i].name, i);
     for (Index i = 0; i < reading.scene.cameras.size(); ++i)
@@ -151,7 +152,7 @@ ShapeUse readShape(Reading& reading, const Element& element, ShapeKind kind) {
     shape.size = {reading.metres(element, "size", size[0]), reading.metres(element, "size", size[1]),
                   reading.metres(element, "size", size[2])};
     if (kind == ShapeKind::torus && shape.tube >= shape.radius)
-        element.fail("the tube must be thinner than the ring: its radius below the ring's radius");
+        element.fail("needs a tube thinner than its ring (tube below radius)");
     use.material = reading.material(element, "material");
     return use;
 }
