@@ -2,6 +2,8 @@
 
 #include "base/text.h"
 
+#include <algorithm>
+
 namespace spectrad {
 
 namespace {
@@ -34,6 +36,16 @@ std::string wrapped(std::string_view text, size_t indent) {
     return out;
 }
 
+std::vector<std::string_view> lines(std::string_view text) {
+    std::vector<std::string_view> out;
+    for (size_t start = 0; start <= text.size();) {
+        const size_t end = std::min(text.find('\n', start), text.size());
+        out.push_back(text.substr(start, end - start));
+        start = end + 1;
+    }
+    return out;
+}
+
 std::string entry(const std::string& label, const std::string& description) {
     std::string out = "  " + label;
     const size_t width = columns(out);
@@ -58,6 +70,15 @@ std::string HelpFormatter::make_option(const CLI::Option* option, bool positiona
 
 std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
     return entry(command->get_name(), command->get_description());
+}
+
+/// Paragraphs are wrapped; examples, which are indented, stay as they are.
+std::string HelpFormatter::make_footer(const CLI::App* app) const {
+    const std::string footer = app->get_footer();
+    std::string out;
+    for (std::string_view line : lines(footer))
+        out += (startsWith(line, " ") ? std::string(line) : wrapped(line, 0)) + "\n";
+    return out;
 }
 
 std::string HelpFormatter::make_description(const CLI::App* app) const {

@@ -87,12 +87,10 @@ void addInfo(CLI::App& app, Action& action) {
     addDeviceOption(*command, arguments->scene.device);
     command->footer(
         "Of a scene: triangles, lights, materials, terms (light x lobe x material), features, bands, samples "
-        "a pixel, and on\n"
-        "the device the rows of a strip and its bytes. Of a cube: size in pixels, wavelengths in nm, the "
-        "smallest and\n"
-        "largest value of each band (radiance in W.m^-2.sr^-1.nm^-1, reflectance 0 to 1). Of a spectrum: "
-        "quantity, unit,\n"
-        "range in nm, integral (unit x nm); of a light its chromaticity, CCT in K and Duv (CIE 1931); of a "
+        "a pixel, and on the device the rows of a strip and its bytes. Of a cube: size in pixels, "
+        "wavelengths in nm, the smallest and largest value of each band (radiance in W.m^-2.sr^-1.nm^-1, "
+        "reflectance 0 to 1). Of a spectrum: quantity, unit, range in nm, integral (unit x nm); of a light "
+        "its chromaticity, CCT in K and Duv (CIE 1931); of a "
         "reflectance its\n"
         "XYZ and CIELAB under D65 (white Y = 100); and a plot.\n\n"
         "Examples:\n"

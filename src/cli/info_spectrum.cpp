@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -137,14 +138,19 @@ void printChannel(const Curve& curve, const ChannelSummary& channel, const std::
     if (channel.samples) printText(fmt::format("{} samples, ", channel.samples));
     printText(fmt::format("values {} to {}", rounded(channel.least, 6), rounded(channel.most, 6)));
     if (channel.integral)
-        printText(fmt::format(", integral {} {}", rounded(*channel.integral, 6),
-                              unit.empty() ? "x nm" : "(" + unit + ") x nm"));
+        printText(fmt::format(", integral {} {}nm", rounded(*channel.integral, 6),
+                              unit.empty() || unit == "1" ? "" : unit + " x "));
     printText("\n");
     for (const SpectralLine& line : curve.lines())
         printText(
             fmt::format("line at {} nm, integral {}\n", rounded(line.nm, 9), rounded(line.integral, 6)));
-    constexpr double visibleFrom = 380, visibleTo = 780;  // shown of curves that have no end
-    auto [from, to] = channel.range.value_or(std::pair{visibleFrom, visibleTo});
+    // Curves without an end, and those far beyond the visible, are shown around it.
+    constexpr double nearFrom = 300, nearTo = 1100, wide = 2000;
+    auto [from, to] = channel.range.value_or(std::pair{380.0, 780.0});
+    if (to - from > wide && from < nearTo && to > nearFrom) {
+        from = std::max(from, nearFrom);
+        to = std::min(to, nearTo);
+    }
     if (to - from < 1) {
         from -= 5;
         to += 5;

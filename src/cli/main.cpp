@@ -21,7 +21,7 @@ constexpr const char* description =
     "wavelength (nm) asked for.";
 constexpr const char* footer =
     "'spectrad COMMAND --help' describes a command with its units, defaults and examples.\n\n"
-    "Results go to standard output, remarks and errors to standard error. Exit codes: 0 fine; 1 an error in\n"
+    "Results go to standard output, remarks and errors to standard error. Exit codes: 0 fine; 1 an error in "
     "the input, or a comparison beyond its bound; 2 wrong usage; 3 the device or the machine failed.\n\n"
     "Examples:\n"
     "  spectrad render chart.xml --preview chart.png\n"
@@ -92,6 +92,8 @@ ExitCode runProgram(const std::vector<std::string>& arguments) {
     addDevices(app, action);
     addCompletion(app, action);
     refuseEmptyValues(app);
+    for (CLI::App* command : app.get_subcommands({}))
+        command->group("Commands");
 
     try {
         app.parse(

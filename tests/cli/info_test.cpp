@@ -1,0 +1,69 @@
+// info on spectra and the library.
+#include "cli/support.h"
+
+using cli::Folder;
+using cli::Outcome;
+using cli::requireError;
+using cli::run;
+using nlohmann::json;
+
+TEST_CASE("info tells a lamp's chromaticity and colour temperature") {
+    const Folder folder;
+    const json a = run(folder, {"info", "illuminants/A", "--json"}).json();
+    CHECK(a.at("relative") == true);
+    CHECK(a.at("light").at("xy")[0].get<double>() == Approx(0.44758).margin(1e-4));
+    CHECK(a.at("light").at("xy")[1].get<double>() == Approx(0.40745).margin(1e-4));
+    CHECK(a.at("light").at("cct_K").get<double>() == Approx(2856).margin(1));
+    const json black = run(folder, {"info", "blackbody:2856", "--json"}).json();
+    CHECK(black.at("light").at("cct_K").get<double>() == Approx(2856).margin(0.5));
+    CHECK(black.at("channels")[0].at("integral").is_null());
+}
+
+TEST_CASE("info tells a reflectance's colour under D65") {
+    const Folder folder;
+    const json grey = run(folder, {"info", "constant:0.18", "--json"}).json();
+    CHECK(grey.at("under_D65").at("XYZ")[1].get<double>() == Approx(18).epsilon(1e-4));
+    CHECK(grey.at("under_D65").at("Lab")[1].get<double>() == Approx(0).margin(1e-6));
+    const json skin = run(folder, {"info", "charts/colorchecker/dark-skin", "--json"}).json();
+    CHECK(skin.at("quantity") == "reflectance");
+    CHECK(skin.at("under_D65").at("Lab")[0].get<double>() == Approx(38).margin(1));
+}
+
+TEST_CASE("info plots a curve, and counts its samples and integral") {
+    const Folder folder;
+    folder.write("ramp.csv", "wavelength,value\n400,0\n500,1\n600,0\n");
+    const json ramp = run(folder, {"info", "ramp.csv", "--json"}).json();
+    CHECK(ramp.at("channels")[0].at("samples") == 3);
+    CHECK(ramp.at("channels")[0].at("from_nm") == 400);
+    CHECK(ramp.at("channels")[0].at("integral").get<double>() == Approx(100));
+    const Outcome text = run(folder, {"info", "ramp.csv"});
+    CHECK(text.code == 0);
+    CHECK_THAT(text.out, Catch::Contains("█") && Catch::Contains("400") && Catch::Contains("600 nm"));
+    CHECK_THAT(run(folder, {"info", "line:632.8"}).out,
+               Catch::Contains("line at 632.8 nm") && Catch::Contains("█"));
+    CHECK(run(folder, {"info", "metals/Au", "--json"}).json().at("channels").size() == 2);
+}
+
+TEST_CASE("info lists the library, whole or below a prefix") {
+    const Folder folder;
+    const json all = run(folder, {"info", "--list", "--json"}).json();
+    REQUIRE(all.size() > 50);
+    const json illuminants = run(folder, {"info", "--list", "illuminants", "--json"}).json();
+    CHECK(illuminants.size() < all.size());
+    bool d65 = false;
+    for (const json& entry : illuminants) {
+        CHECK_THAT(entry.at("name").get<std::string>(), Catch::StartsWith("illuminants"));
+        d65 = d65 || entry.at("name") == "illuminants/D65";
+    }
+    CHECK(d65);
+    CHECK_THAT(run(folder, {"info", "--list", "illuminants"}).out, Catch::Contains("illuminants/FL11"));
+    requireError(run(folder, {"info", "--list", "nosuch"}), 1, "nosuch");
+}
+
+TEST_CASE("info on what does not exist says so") {
+    const Folder folder;
+    requireError(run(folder, {"info", "illuminants/D66"}), 1, "did you mean");
+    requireError(run(folder, {"info", "blackbody:-5"}), 1, "blackbody");
+    folder.write("bad.csv", "400,1\n500,x\n");
+    requireError(run(folder, {"info", "bad.csv"}), 1, "bad.csv:2");
+}
