@@ -10,15 +10,17 @@ kernel void find_materials(global const ulong* keys, global const uint* triangle
     global uint* set = sets + (size_t)block * words;
     for (uint w = 0; w < words; ++w) set[w] = 0;
     global const ulong* lanes = keys + (size_t)block * SD_BLOCK * SLOTS;
-    uint last = ~NO_TRIANGLE; /* a number that no triangle has */
+    uint last = 0;
+    int known = 0; /* whether `last` has been seen yet */
     for (int lane = 0; lane < SD_BLOCK * SLOTS; lane += VW) {
         const vuint id = V_UINT(VLOAD(lanes + lane) & 0xffffffffUL);
-        if (ALL(id == last)) continue;
+        if (known && ALL(id == last)) continue;
         uint ids[VW];
         VSTORE(id, ids);
         for (int i = 0; i < VW; ++i) {
-            if (ids[i] == last && lane + i > 0) continue;
+            if (known && ids[i] == last) continue;
             last = ids[i];
+            known = 1;
             const uint m = material_of(last, triangle_material);
             set[m >> 5] |= 1u << (m & 31);
         }

@@ -105,6 +105,11 @@ TEST_CASE("kernels agree with their twins on adversarial triangles") {
     }
 }
 
+TEST_CASE("kernels agree with their twins where the first triangle fills whole blocks") {
+    const Device device = Device::open(std::nullopt);
+    compare(device, wallPlan(4));
+}
+
 TEST_CASE("two runs give the same bytes") {
     const Device device = Device::open(std::nullopt);
     const Plan plan = randomPlan(7, 16, false, 200, 40);

@@ -194,4 +194,13 @@ Plan adversarialPlan(unsigned seed, bool orthographic) {
     return plan;
 }
 
+Plan wallPlan(int samples) {
+    Plan plan = emptyPlan(samples, true, 400, 40);
+    Random random(5);
+    for (const auto& [x, y] : {std::pair{-9.0, -1.0}, {9.0, -1.0}, {9.0, 1.5}, {-9.0, 1.5}}) addVertex(plan.world, x, y, -3, random);
+    addTriangle(plan.world, 0, 1, 2);
+    addTriangle(plan.world, 0, 2, 3);
+    return plan;
+}
+
 }  // namespace spectrad

@@ -12,4 +12,7 @@ namespace spectrad {
 /// duplicated, depths from 1e-9 to 1e9.
 [[nodiscard]] Plan adversarialPlan(unsigned seed, bool orthographic);
 
+/// One rectangle, wider than a block, of two triangles: number 0 alone in many blocks.
+[[nodiscard]] Plan wallPlan(int samples);
+
 }  // namespace spectrad
