@@ -255,9 +255,9 @@ TEST_CASE(
 "meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]},{"primitives":[{"attributes":{"POSITION":0},"material":1}]},{"primitives":[{"attributes":{"POSITION":0}}]}],
 "cameras":[{"type":"perspective","perspective":{"yfov":0.7,"aspectRatio":1.5,"znear":0.1,"zfar":100}},{"type":"orthographic","orthographic":{"xmag":3,"ymag":2,"znear":0.1,"zfar":100}}],
 "extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","color":[1,0.5,0.25],"intensity":80,"spot":{"innerConeAngle":0.2,"outerConeAngle":0.4}},{"type":"directional","intensity":1000}]}},
-"nodes":[{"name":"top","children":[1,2,3,4,5,6],"translation":[0,1,0]},{"name":"left","mesh":0,"translation":[-2,0,0]},{"name":"right","mesh":0,"translation":[2,0,0]},
+"nodes":[{"name":"top","children":[1,2,3,4,5,6,8],"translation":[0,1,0]},{"name":"left","mesh":0,"translation":[-2,0,0]},{"name":"right","mesh":0,"translation":[2,0,0]},
 {"name":"gilt","mesh":1},{"name":"eye","camera":0,"translation":[0,0,4]},{"name":"plan","camera":1},
-{"name":"lamp","extensions":{"KHR_lights_punctual":{"light":0}},"children":[7]},{"name":"sun","extensions":{"KHR_lights_punctual":{"light":1}}}],
+{"name":"lamp","extensions":{"KHR_lights_punctual":{"light":0}},"children":[7]},{"name":"sun","extensions":{"KHR_lights_punctual":{"light":1}}},{"name":"bare","mesh":2}],
 "scenes":[{"nodes":[0]}]})");
     const ImportedScene s = importModel(file, false);
     CHECK(s.inMetres);
@@ -266,7 +266,7 @@ TEST_CASE(
     CHECK(s.materials[s.meshMaterial[2]].diffuse[0] == 0.5);  // without a material: grey, as everywhere
     CHECK_FALSE(s.materials[s.meshMaterial[2]].metal);
     const Found found = follow(s);
-    REQUIRE(found.meshes.size() == 3);
+    REQUIRE(found.meshes.size() == 4);
     near(found.meshes[0], {-2, 1, 0});
     near(found.meshes[1], {2, 1, 0});
     const ImportedMaterial& paint = s.materials[s.meshMaterial[0]];
