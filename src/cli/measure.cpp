@@ -160,8 +160,9 @@ std::string numbers(std::span<const double> values) {
 
 std::string colorimetry(const Reading& reading, const std::vector<std::string>& channelNames) {
     const Place& place = reading.place;
-    std::string out = fmt::format("# at {},{}, radius {} ({} pixels): XYZ{}", place.x, place.y,
-                                  shortest(place.radius), reading.pixels, numbers(reading.xyz));
+    std::string out =
+        fmt::format("# at {},{}, radius {} ({} pixel{}): XYZ{}", place.x, place.y, shortest(place.radius),
+                    reading.pixels, reading.pixels == 1 ? "" : "s", numbers(reading.xyz));
     if (reading.xy) out += "; xy" + numbers(*reading.xy);
     if (reading.uv) out += "; u'v'" + numbers(*reading.uv);
     if (reading.luminance) out += "; luminance " + rounded(*reading.luminance, 6) + " cd/m2";

@@ -42,7 +42,7 @@ Task taskOf(const ObserveArguments& arguments) {
         throw UsageError("-o: '" + arguments.output +
                          "' must end in .png (a picture) or .exr (the detector's channels)");
     task.picture = extension == ".png";
-    task.settings.adaptation = parseAdaptation(arguments.adapt);
+    task.settings.adaptation = asUsage("--adapt", [&] { return parseAdaptation(arguments.adapt); });
     task.settings.display = displayFor(arguments.display);
     task.settings.exposure = parseExposure(arguments.exposure);
     requireOther("-o", arguments.output, arguments.cube);
@@ -62,7 +62,7 @@ Json writePicture(const ObserveArguments& arguments, DevelopSettings settings, c
                            observation.detector().name, white.name, rounded(picture.whiteLuminance, 6),
                            arguments.adapt, settings.display.name)}},
              arguments.display == "srgb");
-    constexpr double worthSaying = 0.001;
+    constexpr double worthSaying = 0.02;  // the percentile of auto exposure alone clips 1 %
     if (picture.clippedShare() > worthSaying)
         notes.say(fmt::format(
             "{:.1f} % of the pixels lie outside the display's range and were clipped (--exposure changes it)",

@@ -18,16 +18,6 @@ namespace {
 constexpr int largestSide = 65536;  // pixels (docs/format.md, "Limits")
 constexpr int mostSamples = 64;
 
-/// A parser of the library's, whose complaint about the user's file is here one about the command line.
-template <class Parse>
-auto asUsage(const std::string& option, Parse parse) {
-    try {
-        return parse();
-    } catch (const InputError& error) {
-        throw UsageError(option + ": " + error.what());
-    }
-}
-
 }  // namespace
 
 double parseNumber(const std::string& option, std::string_view text, double least, double most) {

@@ -19,6 +19,16 @@ class App;
 
 namespace spectrad {
 
+/// Runs a parser of the library's, whose complaint about a file or a name is here one about the command line.
+template <class Parse>
+auto asUsage(const std::string& option, Parse parse) {
+    try {
+        return parse();
+    } catch (const Error& error) {
+        throw UsageError(option + ": " + error.what());
+    }
+}
+
 /// A finite number within [least, most].
 [[nodiscard]] double parseNumber(const std::string& option, std::string_view text, double least, double most);
 /// A whole number within [least, most].

@@ -57,7 +57,9 @@ Output outputOf(const RenderArguments& arguments) {
         arguments.output.empty() ? fs::path(arguments.scene.file).stem().string() + ending : arguments.output;
     out.preview = arguments.preview;
     out.compressionAsked = !arguments.compression.empty();
-    if (out.compressionAsked) out.options.compression = parseCompression(arguments.compression);
+    if (out.compressionAsked)
+        out.options.compression =
+            asUsage("--compression", [&] { return parseCompression(arguments.compression); });
     out.options.half = arguments.half;
     if (!arguments.preview.empty()) {
         if (extensionOf(out.preview) != ".png")
@@ -236,6 +238,10 @@ ExitCode render(const RenderArguments& arguments) {
     const RenderSettings settings = renderSettings(arguments.scene);
     const std::optional<int> number = deviceNumber(arguments.scene.device);
     const Output output = outputOf(arguments);
+    // A device that is asked for is missed at once; that there is none at all, only when the scene is known
+    // to be sound.
+    std::optional<Device> device;
+    if (number) device = Device::open(number);
 
     const Library library = Library::open();
     const Scene scene =
@@ -243,11 +249,11 @@ ExitCode render(const RenderArguments& arguments) {
     seconds.load = clock.lap();
     const Plan plan = makePlan(scene, settings, library, console.notes());
     seconds.plan = clock.lap();
-    const Device device = Device::open(number);
-    const CubeInfo info = cubeInfo(arguments, scene, plan, device);
+    if (!device) device = Device::open(std::nullopt);
+    const CubeInfo info = cubeInfo(arguments, scene, plan, *device);
     const std::unique_ptr<CubeWriter> writer = openWriter(output, info, console.notes());
     console.printNotes();
-    Renderer renderer(device, plan);
+    Renderer renderer(*device, plan);
 
     Preview preview(!output.preview.empty(), info.width, info.height);
     {
@@ -271,7 +277,7 @@ ExitCode render(const RenderArguments& arguments) {
 
     console.printNotes();
     if (arguments.json)
-        printJson(described(output, plan, device, seconds));
+        printJson(described(output, plan, *device, seconds));
     else if (!arguments.quiet)
         printSummary(output, plan, seconds);
     return ExitCode::ok;

@@ -99,7 +99,7 @@ TEST_CASE("options change what they name") {
     folder.write("wall.xml", wall);
     const json result =
         run(folder, {"render", "wall.xml", "--size", "16x9", "--wavelengths", "500,510,530", "--projection",
-                     "box", "--samples", "1", "--set", "grey.reflectance=constant:1", "--json"})
+                     "box", "--samples", "1", "--set", "sun.scale=2", "--json"})
             .json();
     CHECK(result.at("width") == 16);
     CHECK(result.at("height") == 9);
