@@ -188,7 +188,8 @@ void addCompare(CLI::App& app, Action& action) {
         "band rmse: root mean square of A - B over pixels and bands, in the cubes' unit "
         "(W.m^-2.sr^-1.nm^-1). band relative max: the largest |A - B| of a band by A's largest value in it. "
         "gfc: goodness of fit, the cosine between two pixels' spectra; spectral angle: in rad. A white "
-        "without luminance counts at A's brightest Y.\n Examples:\n"
+        "without luminance counts at A's brightest Y.\n\n"
+        "Examples:\n"
         "  spectrad compare reference.exr new.exr --max-deltae 0.5\n"
         "  spectrad compare a.exr b.exr --observer cie1964-10 --map difference.png --json");
     command->final_callback([&action, arguments] { action = [arguments] { return compare(*arguments); }; });

@@ -91,7 +91,7 @@ void addInfo(CLI::App& app, Action& action) {
         "wavelengths in nm, the smallest and largest value of each band (radiance in W.m^-2.sr^-1.nm^-1, "
         "reflectance 0 to 1). Of a spectrum: quantity, unit, range in nm, integral (unit x nm); of a light "
         "its chromaticity, CCT in K and Duv (CIE 1931); of a "
-        "reflectance its\n"
+        "reflectance its "
         "XYZ and CIELAB under D65 (white Y = 100); and a plot.\n\n"
         "Examples:\n"
         "  spectrad info scene.xml\n"

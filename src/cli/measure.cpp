@@ -249,7 +249,8 @@ void addMeasure(CLI::App& app, Action& action) {
         "(irradiance in W.m^-2.nm^-1, reflectance 0 to 1), after # lines with the colorimetry. XYZ are "
         "absolute, Y in cd/m2. Luminance (cd/m2), CCT (K) and Duv are defined for CIE 1931 and computed with "
         "it whatever the observer; a camera or cones add their own channels. CIELAB is printed with --white; "
-        "a white without luminance gets the brightest pixel's Y.\n Examples:\n"
+        "a white without luminance gets the brightest pixel's Y.\n\n"
+        "Examples:\n"
         "  spectrad measure scene.exr --at 320,180\n"
         "  spectrad measure scene.exr --at 320,180,4 --at 20,20,4 --white at:20,20 --json\n"
         "  spectrad measure scene.exr --at 320,180 > patch.csv");

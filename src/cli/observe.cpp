@@ -145,7 +145,8 @@ void addObserve(CLI::App& app, Action& action) {
     command->footer(
         "XYZ are absolute, Y in cd/m2 (683.002 lm/W). A slit cube meets the detector by least-squares "
         "projection, a point cube by the trapezoid rule. A camera's or the cones' channels reach a display "
-        "through the matrix to XYZ that fits their sensitivities best.\n Examples:\n"
+        "through the matrix to XYZ that fits their sensitivities best.\n\n"
+        "Examples:\n"
         "  spectrad observe scene.exr -o scene.png\n"
         "  spectrad observe scene.exr -o tungsten.png --white illuminants/A --exposure 1\n"
         "  spectrad observe scene.exr -o wide.png --display p3 --white at:120,80\n"

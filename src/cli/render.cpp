@@ -313,7 +313,8 @@ void addRender(CLI::App& app, Action& action) {
     command->footer(
         "A band value is spectral radiance in W.m^-2.sr^-1.nm^-1, averaged under the band's slit function. "
         "Wavelengths are in nm, sizes in pixels, times in seconds. The file appears whole or not at all; the "
-        "same scene, device and options give the same bytes.\n Examples:\n"
+        "same scene, device and options give the same bytes.\n\n"
+        "Examples:\n"
         "  spectrad render scene.xml --preview scene.png\n"
         "  spectrad render scene.xml -o warm.exr --set lamp.spectrum=illuminants/A\n"
         "  spectrad render scene.xml --wavelengths 400:700:10 --size 1920x1080 --samples 32 --json\n"
