@@ -2,6 +2,7 @@
 
 #include "image/cube_check.h"
 #include "image/exr_bands.h"
+#include "image/exr_headers.h"
 #include "image/exr_layout.h"
 #include "image/exr_sink.h"
 #include "image/printable.h"
@@ -55,11 +56,12 @@ std::string someChannels(const Imf::ChannelList& channels) {
 }
 
 /// The first part that has bands.
-SpectralPart findPart(const Imf::MultiPartInputFile& file, const std::filesystem::path& path, Notes& notes) {
-    for (int p = 0; p < file.parts(); ++p) {
-        const Imf::Header& header = file.header(p);
+SpectralPart findPart(const std::filesystem::path& path, Notes& notes) {
+    const std::vector<Imf::Header> headers = readExrHeaders(path);
+    for (size_t p = 0; p < headers.size(); ++p) {
+        const Imf::Header& header = headers[p];
         if (header.hasType() && !Imf::isImage(header.type())) continue;  // deep parts hold no image
-        SpectralPart part{p, findBands(header.channels(), path, notes), {}};
+        SpectralPart part{static_cast<int>(p), findBands(header.channels(), path, notes), {}};
         if (part.bands.names.empty()) continue;
         part.info = cubeInfoFrom(header, part.bands.emissive, part.bands.nm, path, notes);
         checkCubeInfo(part.info, path);
@@ -67,13 +69,7 @@ SpectralPart findPart(const Imf::MultiPartInputFile& file, const std::filesystem
     }
     throw InputError({path.string()},
                      "has no spectral channels (S0.<wavelength>nm or T.<wavelength>nm); its channels are " +
-                         someChannels(file.header(0).channels()));
-}
-
-Imf::MultiPartInputFile openExr(const std::filesystem::path& path) {
-    if (!std::ifstream(path, std::ios::binary)) throw InputError({path.string()}, "cannot be read");
-    // A file without its table of chunks is incomplete: no reconstruction from what can be found.
-    return Imf::MultiPartInputFile(path.c_str(), exrThreads(), false);
+                         someChannels(headers[0].channels()));
 }
 
 }  // namespace
@@ -86,15 +82,12 @@ bool startsLikeExr(const std::filesystem::path& path) {
 }
 
 CubeInfo readExrInfo(const std::filesystem::path& path, Notes& notes) {
-    return readingExr(path, [&] { return findPart(openExr(path), path, notes).info; });
+    return readingExr(path, [&] { return findPart(path, notes).info; });
 }
 
 Cube readExr(const std::filesystem::path& path, Notes& notes) {
     return readingExr(path, [&] {
-        Imf::MultiPartInputFile file = openExr(path);
-        const SpectralPart part = findPart(file, path, notes);
-        if (!file.partComplete(part.index))
-            throw InputError({path.string()}, "incomplete: its writing was interrupted");
+        const SpectralPart part = findPart(path, notes);
         const size_t count = checkedValueCount(part.info, path);
         // No compression of EXR makes more than some 1000 bytes of one; a damaged header claims more.
         constexpr std::uintmax_t largestRatio = 4096;
@@ -102,6 +95,10 @@ Cube readExr(const std::filesystem::path& path, Notes& notes) {
             throw InputError({path.string()},
                              fmt::format("damaged: {} values cannot be in {} bytes", count, size));
 
+        // A file without its table of chunks is incomplete: no reconstruction from what can be found.
+        Imf::MultiPartInputFile file(path.c_str(), exrThreads(), false);
+        if (!file.partComplete(part.index))
+            throw InputError({path.string()}, "incomplete: its writing was interrupted");
         Cube cube{part.info, std::vector<float>(count)};
         Imf::InputPart input(file, part.index);
         const Imath::Box2i window = input.header().dataWindow();

@@ -75,6 +75,18 @@ TEST_CASE("a header that claims more than its file can hold is refused before me
     CHECK_FALSE(readsOrRefuses(folder / "a.exr"));
 }
 
+TEST_CASE("an attribute that claims more than the file is refused before memory is taken") {
+    const Folder folder;
+    std::string bytes = cubeBytes(folder, "a.exr", Compression::none);
+    const std::string comments("comments\0string\0", 16);
+    REQUIRE(bytes.find(comments) != std::string::npos);
+    bytes.replace(bytes.find(comments) + comments.size(), 4, "\xff\xff\xff\x7f");
+    writeBytes(folder / "a.exr", bytes);
+    Notes notes;
+    CHECK_THROWS_WITH(readCubeInfo(folder / "a.exr", notes),
+                      Catch::Matchers::Contains("'comments' claims 2147483647 bytes"));
+}
+
 TEST_CASE("a truncated or damaged ENVI raster is a cube or an error") {
     const Folder folder;
     const Cube cube = sampleCube(5, 4, {400, 500, 600});
