@@ -34,6 +34,10 @@ TEST_CASE(
     }
     size_t imported = 0, refused = 0;
     for (const fs::path& file : filesBelow(assimpModels)) {
+#if defined(__SANITIZE_ADDRESS__)
+        // AddressSanitizer needs its address space unbounded: this one would fill the machine's memory.
+        if (file.filename() == "OutOfMemory.off") continue;
+#endif
         const auto start = std::chrono::steady_clock::now();
         try {
             const ImportedScene scene = importModel(file, true, 20);
