@@ -1,0 +1,97 @@
+# Everyday commands; `make help` lists them. The build itself is CMake's (CMakeLists.txt, CMakePresets.json).
+.DEFAULT_GOAL := build
+.DELETE_ON_ERROR:
+.NOTPARALLEL:
+.SUFFIXES:
+
+PROGRAM := build/spectrad
+CORES := $(shell nproc)
+CODE := $(shell find src tests bench \( -name '*.cpp' -o -name '*.h' \))
+
+##build           the program: build/spectrad
+.PHONY: build
+build: $(PROGRAM)
+
+##demo            install what is missing, build, render the showcase scenes into out/
+.PHONY: demo
+PICTURES := colorchecker colorchecker-FL11 still-life pavilion chess
+demo: packages $(PICTURES:%=out/%.exr) $(PICTURES:%=out/%.png)
+	@echo "Spectral images (W.m^-2.sr^-1.nm^-1): $(PICTURES:%=out/%.exr)"
+	@echo "Pictures of them for the screen:      $(PICTURES:%=out/%.png)"
+
+##test            install what is missing, build everything, run the whole suite
+.PHONY: test
+test: packages packages-test build/build.ninja
+	cmake --build build
+	ctest --test-dir build --output-on-failure --parallel $(CORES)
+
+##test-sanitized  the unit tests under AddressSanitizer and UndefinedBehaviorSanitizer, in build-debug/
+.PHONY: test-sanitized
+UNITS := base spectrum colour scene image
+test-sanitized: packages debug-configured
+	cmake --build build-debug --target $(UNITS:%=test_%)
+	ctest --test-dir build-debug --output-on-failure --parallel $(CORES) -R '^($(subst $() $(),|,$(UNITS)))$$'
+
+##debug           the program with those sanitizers: build-debug/spectrad (run it with ASAN_OPTIONS=detect_leaks=0)
+.PHONY: debug debug-configured
+debug: debug-configured
+	cmake --build build-debug --target spectrad
+debug-configured:
+	cmake --preset debug
+
+##bench           build and run the benchmarks
+.PHONY: bench
+bench: packages build/build.ninja
+	cmake --build build
+	@for program in build/bench_*; do [ ! -x "$$program" ] || "$$program" || exit 1; done
+
+##format          clang-format everything in C++
+.PHONY: format
+format: packages-develop
+	clang-format -i $(CODE)
+
+##tidy            clang-tidy on what the build compiles
+.PHONY: tidy
+tidy: packages-develop build/build.ninja
+	cmake --build build
+	run-clang-tidy -quiet -p build -extra-arg=-Wno-unknown-warning-option '/(src|tests|bench)/'
+
+##packages        install the Debian packages that the build needs (cmake/packages.txt)
+.PHONY: packages packages-test packages-develop
+packages:
+	@cmake/packages.sh install build
+packages-test packages-develop: packages-%:
+	@cmake/packages.sh install $*
+
+##clean           remove build/, build-debug/ and out/
+.PHONY: clean
+clean:
+	rm -rf build build-debug out
+
+##help            this list
+.PHONY: help
+help:
+	@sed -n 's/^##/make /p' Makefile
+
+build/build.ninja:
+	@cmake/packages.sh check build
+	cmake --preset release
+
+# Ninja knows what is out of date; what it leaves alone makes no picture out of date.
+.PHONY: always
+$(PROGRAM): build/build.ninja always
+	cmake --build build --target spectrad
+
+# A picture is rendered anew when its scene, a model, a spectrum or the program has changed.
+SPECTRA := $(shell find spectra -name '*.csv')
+RENDER = $(PROGRAM) render $< -o out/$*.exr --preview out/$*.png
+
+out/%.exr out/%.png: scenes/%.xml $(PROGRAM) $(SPECTRA) | out
+	$(RENDER)
+out/%.exr out/%.png: scenes/models/%.dae $(PROGRAM) $(SPECTRA) | out
+	$(RENDER)
+out/%-FL11.exr out/%-FL11.png: scenes/%.xml $(PROGRAM) $(SPECTRA) | out
+	$(PROGRAM) render $< -o out/$*-FL11.exr --preview out/$*-FL11.png --set lamp.spectrum=illuminants/FL11
+out/pavilion.exr out/pavilion.png: scenes/models/pavilion.gltf
+out:
+	mkdir out
