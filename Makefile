@@ -89,7 +89,8 @@ RENDER = $(PROGRAM) render $< -o out/$*.exr --preview out/$*.png
 out/%.exr out/%.png: scenes/%.xml $(PROGRAM) $(SPECTRA) | out
 	$(RENDER)
 out/%.exr out/%.png: scenes/models/%.dae $(PROGRAM) $(SPECTRA) | out
-	$(RENDER)
+	$(PROGRAM) render $< -o out/$*.exr
+	$(PROGRAM) observe out/$*.exr -o out/$*.png --exposure -0.4
 out/%-FL11.exr out/%-FL11.png: scenes/%.xml $(PROGRAM) $(SPECTRA) | out
 	$(PROGRAM) render $< -o out/$*-FL11.exr --preview out/$*-FL11.png --set lamp.spectrum=illuminants/FL11
 out/pavilion.exr out/pavilion.png: scenes/models/pavilion.gltf
