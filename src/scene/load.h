@@ -11,11 +11,14 @@
 namespace spectrad {
 
 struct LoadOptions {
-    std::vector<std::string> set;  ///< "NODE.ATTR=VALUE" or "kind:NODE.ATTR=VALUE", applied to the XML before it is read
-    bool restricted = false;       ///< no file outside the scene's folder but the library's
+    std::vector<std::string>
+        set;  ///< "NODE.ATTR=VALUE" or "kind:NODE.ATTR=VALUE", applied to the XML before it is read
+    bool restricted = false;  ///< no file outside the scene's folder but the library's
 };
 
-/// Whole scene, checked. Throws InputError with place; remarks (unused definitions, default lamp, framed camera) go to notes.
-[[nodiscard]] Scene loadScene(const std::filesystem::path& path, const Library& library, const LoadOptions& options, Notes& notes);
+/// Whole scene, checked. Throws InputError with place; remarks (unused definitions, default lamp, framed
+/// camera) go to notes.
+[[nodiscard]] Scene loadScene(const std::filesystem::path& path, const Library& library,
+                              const LoadOptions& options, Notes& notes);
 
 }  // namespace spectrad

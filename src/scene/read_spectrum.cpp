@@ -124,6 +124,7 @@ void readSpectra(Reading& reading) {
             at = wanted->second;
             if (entries[at].state == State::open) {
                 std::vector<std::string> names;
+                names.reserve(chain.size() + 1);
                 for (const size_t link : chain)
                     names.push_back(entries[link].element.text("name"));
                 names.push_back(entries[at].element.text("name"));

@@ -1,5 +1,5 @@
-// The scene graph as plain data: what the XML or a foreign file says, checked, spectra resolved, lengths in metres; nothing
-// of cameras' pixels, devices or bands' products yet. Indices refer to the vectors of Scene.
+// The scene graph as plain data: what the XML or a foreign file says, checked, spectra resolved, lengths in
+// metres; nothing of cameras' pixels, devices or bands' products yet. Indices refer to the vectors of Scene.
 #pragma once
 
 #include "base/error.h"
@@ -19,13 +19,18 @@ namespace spectrad {
 
 using Index = std::uint32_t;
 
-// ---- amounts -------------------------------------------------------------------------------------------------------
+// ---- amounts
+// -------------------------------------------------------------------------------------------------------
 
 enum class AmountUnit {
-    candela, wattPerSteradian,                           // intensity
-    lumen, watt,                                         // power
-    lux, wattPerSquareMetre,                             // illuminance, irradiance
-    candelaPerSquareMetre, wattPerSquareMetreSteradian,  // luminance, radiance
+    candela,
+    wattPerSteradian,  // intensity
+    lumen,
+    watt,  // power
+    lux,
+    wattPerSquareMetre,  // illuminance, irradiance
+    candelaPerSquareMetre,
+    wattPerSquareMetreSteradian,  // luminance, radiance
 };
 [[nodiscard]] bool isPhotometric(AmountUnit unit);
 
@@ -33,18 +38,21 @@ enum class AmountUnit {
 struct Amount {
     AmountUnit unit = AmountUnit::candela;
     double value = 0;
-    std::optional<std::pair<double, double>> over;  ///< nm: integrate the spectrum over this range (constant spectra need one)
+    std::optional<std::pair<double, double>>
+        over;  ///< nm: integrate the spectrum over this range (constant spectra need one)
 };
 
 /// A source's spectrum: shape × amount, or absolute × scale (docs/format.md, "Amounts").
 struct Emitter {
     Spectrum spectrum;
-    std::optional<Amount> amount;  ///< nothing: the spectrum counts as it stands, in the light's own unit per nm
+    std::optional<Amount>
+        amount;  ///< nothing: the spectrum counts as it stands, in the light's own unit per nm
     double scale = 1;
     SourceLocation where;
 };
 
-// ---- materials -----------------------------------------------------------------------------------------------------
+// ---- materials
+// -----------------------------------------------------------------------------------------------------
 
 struct TextureUse {
     std::string source;  ///< file name, or "pass:NAME"
@@ -90,7 +98,8 @@ struct Material {
     std::optional<Emitter> emission;
 };
 
-// ---- graph ---------------------------------------------------------------------------------------------------------
+// ---- graph
+// ---------------------------------------------------------------------------------------------------------
 
 struct ShapeUse {
     Shape shape;
@@ -118,19 +127,19 @@ struct Light {
     std::string name;
     LightType type = LightType::point;
     Emitter emitter;
-    Vec3 position;                      ///< point, spot; in the node's space, metres
-    Vec3 direction{0, -1, 0};           ///< spot, directional: where the light goes, unit vector in the node's space
-    double angle = 30;                  ///< spot: full opening angle of the cone, degrees
-    double blend = 0;                   ///< spot: share of the cone's angle over which it fades out, 0…1
+    Vec3 position;             ///< point, spot; in the node's space, metres
+    Vec3 direction{0, -1, 0};  ///< spot, directional: where the light goes, unit vector in the node's space
+    double angle = 30;         ///< spot: full opening angle of the cone, degrees
+    double blend = 0;          ///< spot: share of the cone's angle over which it fades out, 0…1
     SourceLocation where;
 };
 
 struct Camera {
     std::string name;
     bool orthographic = false;
-    double fovDegrees = 40;  ///< vertical
-    double viewHeight = 1;   ///< orthographic, metres
-    Affine toNode;           ///< camera space (looks down −z, y up) to the node's space, rigid
+    double fovDegrees = 40;          ///< vertical
+    double viewHeight = 1;           ///< orthographic, metres
+    Affine toNode;                   ///< camera space (looks down −z, y up) to the node's space, rigid
     int width = 1280, height = 720;  ///< pixels
     SourceLocation where;
 };
@@ -154,8 +163,8 @@ struct Pass {
 };
 
 struct Scene {
-    std::string file;              ///< as the user named it
-    std::string sha256;            ///< of the scene file and every file it read, in order of reading
+    std::string file;    ///< as the user named it
+    std::string sha256;  ///< of the scene file and every file it read, in order of reading
     std::vector<std::string> filesRead;
     Wavelengths wavelengths;
     double metresPerUnit = 1;
@@ -173,7 +182,8 @@ struct Placed {
     Index index;
     Affine toWorld;
 };
-/// Everything below `root` (without an argument: the whole scene), in document order, instances expanded; without recursion.
+/// Everything below `root` (without an argument: the whole scene), in document order, instances expanded;
+/// without recursion.
 struct FlatScene {
     struct Object {
         const Node* node;

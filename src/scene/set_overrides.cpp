@@ -117,6 +117,7 @@ Target findTarget(const std::string& option, std::string_view path,
         });
         if (!oneKind) {
             std::vector<std::string> ways;
+            ways.reserve(found.size());
             for (const NamedElement* candidate : found)
                 ways.push_back(fmt::format("{}:{}", candidate->kind, path));
             throw UsageError(fmt::format("{}: '{}' names several elements (write {})", option, name,

@@ -85,7 +85,7 @@ TEST_CASE("the scenes that ship and the contract's are valid") {
     if (!haveXmllint()) return;
     size_t scenes = 0;
     for (const std::filesystem::path& folder : {std::filesystem::path(SPECTRAD_SOURCE) / "scenes",
-                                               std::filesystem::path(SPECTRAD_SHARED) / "contract"}) {
+                                                std::filesystem::path(SPECTRAD_SHARED) / "contract"}) {
         if (!std::filesystem::exists(folder)) continue;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
             if (entry.path().extension() != ".xml") continue;
