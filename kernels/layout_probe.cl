@@ -14,6 +14,6 @@ kernel void layout_probe(global uint* out) {
     out[7] = sizeof(sd_light);
     out[8] = OFFSET(sd_light, group);
     out[9] = sizeof(sd_lobe);
-    out[10] = sizeof(sd_albedo);
+    out[10] = sizeof(sd_piece);
     out[11] = sizeof(sd_material);
 }

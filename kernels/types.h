@@ -76,6 +76,7 @@ typedef struct sd_large {
 #define SD_LIGHT_SPOT 2
 #define SD_LIGHT_DIRECTIONAL 3
 #define SD_LIGHT_AMBIENT 4
+#define SD_LIGHT_SURROUNDINGS 5 /* the background, where no ambient light is: only mirrors show it */
 
 typedef struct sd_light {
     float x, y, z;              /* point, spot: position; directional: unit vector towards the light */
@@ -89,27 +90,33 @@ typedef struct sd_light {
 } sd_light;
 
 #define SD_LOBE_EMISSION 1 /* one term */
-#define SD_LOBE_DIFFUSE 2  /* the lobes below have a term for each light group */
-#define SD_LOBE_COATED 3   /* Lambert under a dielectric coat */
-#define SD_LOBE_COAT 4     /* GGX dielectric reflection of the coat */
+#define SD_LOBE_DIFFUSE 2  /* Lambert; this and the lobes below have a term for each light group */
+#define SD_LOBE_ROUGH 3    /* Oren-Nayar: a term for single and one for multiple scattering */
+#define SD_LOBE_COATED 4   /* Lambert under a coat */
+#define SD_LOBE_FACETS 5   /* GGX microfacets whose Fresnel reflectance is a sum of functions of the angle */
 
+/* Functions of a cosine are cubics on cells uniform in the square root of the cosine, which keeps grazing angles apart:
+ * f = c[0] + t (c[1] + t (c[2] + t c[3])), t in 0..1 within the cell. A function has SD_CELLS pieces. */
+#define SD_CELLS 256
+typedef struct sd_piece {
+    float c[4];
+} sd_piece;
+
+/* Tables of a lobe, each SD_CELLS pieces from `table` on.
+ *   COATED: what the coat lets through.
+ *   ROUGH:  1 - directional albedo of single scattering.
+ *   FACETS: 1 - directional albedo were the facets perfect mirrors ("missing"); then `functions` directional albedos; then
+ *           `functions` Fresnel factors over the cosine between view and facet. */
 typedef struct sd_lobe {
     sd_int type;
-    sd_uint term;       /* of the lobe's first term within its material */
-    float alpha;        /* GGX width, roughness squared; 0: a mirror */
-    float ior;          /* of the coat */
-    sd_uint table;      /* first entry in the albedo tables */
-    float multiple;     /* factor of the coat's multiple-scattering lobe (Kulla & Conty 2017) */
-    float mean_through; /* 1 - cosine-weighted mean of the coat's albedo */
-    float weight;       /* of a lobe evaluated at one of several indices (dispersion); else 1 */
+    sd_uint term;        /* of the lobe's first term within its material; terms run [function][light group] */
+    sd_uint table;       /* first piece */
+    sd_uint functions;   /* FACETS: how many */
+    sd_uint multiple_to; /* FACETS: the function whose terms take multiple scattering; == functions: terms of their own */
+    float multiple;      /* factor of missing(view) missing(light), 1/sr; ROUGH: 1 / (1 - mean albedo) */
+    float alpha;         /* FACETS: GGX width, roughness squared, 0 a mirror; ROUGH: B / A of Oren and Nayar */
+    float mean_through;  /* COATED: cosine-weighted mean of what is let through; ROUGH: A */
 } sd_lobe;
-
-/* Entries of an albedo table, uniform in the cosine from 0 to 1: what the coat lets through, and what single scattering misses. */
-#define SD_TABLE_CELLS 1024
-typedef struct sd_albedo {
-    float through; /* 1 - albedo(cos) */
-    float missing; /* 1 - albedo(cos) of the same microfacets if they reflected everything */
-} sd_albedo;
 
 typedef struct sd_material {
     sd_uint first_lobe, lobes;
@@ -118,7 +125,7 @@ typedef struct sd_material {
 
 #ifndef __OPENCL_VERSION__
 static_assert(sizeof(sd_frame) == 56 && sizeof(sd_draw) == 144 && sizeof(sd_vertex) == 16 && sizeof(sd_large) == 64 + 0 &&
-                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 32 && sizeof(sd_albedo) == 8 && sizeof(sd_material) == 16,
+                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 32 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 16,
               "layout shared with the kernels");
 #endif
 

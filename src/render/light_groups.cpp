@@ -83,6 +83,14 @@ double powerToIntensity(const Light& light) {
     return 1;
 }
 
+/// Only a perfectly smooth surface shows what is behind the viewer.
+bool showsSurroundings(const Scene& scene) {
+    for (const Material& m : scene.materials)
+        if ((m.gloss && m.gloss->roughness == 0) || (m.specular && m.specular->roughness == 0) || (m.conductor && m.conductor->roughness == 0))
+            return true;
+    return false;
+}
+
 }  // namespace
 
 double absoluteFactor(const Emitter& emitter, const Detector& observer, double powerToOwnUnit) {
@@ -101,20 +109,29 @@ double absoluteFactor(const Emitter& emitter, const Detector& observer, double p
 std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view, const Detector& observer,
                                     std::vector<sd_light>& lights) {
     std::vector<LightGroup> groups;
+    const auto add = [&](const Emitter& emitter, double factor, sd_light l) {
+        size_t group = 0;
+        while (group < groups.size() && groups[group].text != emitter.spectrum.text) ++group;
+        if (group == groups.size()) groups.push_back({emitter.spectrum.curve(), 0, emitter.spectrum.text});
+        // The first light that shines sets the group's absolute spectrum, so that terms are of the image's own magnitude.
+        if (groups[group].factor == 0) groups[group].factor = factor;
+        l.group = static_cast<sd_uint>(group);
+        l.scale = groups[group].factor == 0 ? 0.0f : static_cast<float>(factor / groups[group].factor);
+        lights.push_back(l);
+    };
+    bool ambient = false;
     for (const Placed& place : flat.lights) {
         const Light& light = scene.lights[place.index];
         double factor = absoluteFactor(light.emitter, observer, powerToIntensity(light));
         // Uniform radiance L from everywhere arrives as irradiance π L.
         if (light.type == LightType::ambient) factor *= std::numbers::pi;
-        size_t group = 0;
-        while (group < groups.size() && groups[group].text != light.emitter.spectrum.text) ++group;
-        if (group == groups.size()) groups.push_back({light.emitter.spectrum.curve(), 0, light.emitter.spectrum.text});
-        // The first light that shines sets the group's absolute spectrum, so that terms are of the image's own magnitude.
-        if (groups[group].factor == 0) groups[group].factor = factor;
-        sd_light l = placed(light, place.toWorld, view);
-        l.group = static_cast<sd_uint>(group);
-        l.scale = groups[group].factor == 0 ? 0.0f : static_cast<float>(factor / groups[group].factor);
-        lights.push_back(l);
+        ambient = ambient || light.type == LightType::ambient;
+        add(light.emitter, factor, placed(light, place.toWorld, view));
+    }
+    if (scene.background && !ambient && showsSurroundings(scene)) {
+        sd_light surroundings{};
+        surroundings.type = SD_LIGHT_SURROUNDINGS;
+        add(*scene.background, absoluteFactor(*scene.background, observer) * std::numbers::pi, surroundings);
     }
     return groups;
 }

@@ -22,7 +22,8 @@ struct LightGroup {
 /// Throws InputError where the integral is zero, or does not exist (a constant without a range).
 [[nodiscard]] double absoluteFactor(const Emitter& emitter, const Detector& observer, double powerToOwnUnit = 1);
 
-/// Places the scene's lights for a view and groups them. Lights of no power are kept: they cost little and change nothing.
+/// Places the scene's lights for a view and groups them. Lights of no power are kept: they cost little and change nothing. Where
+/// no ambient light is, the background comes last, for mirrors to show.
 [[nodiscard]] std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view,
                                                   const Detector& observer, std::vector<sd_light>& lights);
 

@@ -102,24 +102,32 @@ std::vector<std::string> featuresOf(const std::vector<const Material*>& material
         if (m->diffuse) features.insert("diffuse");
         if (m->gloss) features.insert("gloss");
         if (m->emission) features.insert("emission");
+        if (m->specular) features.insert("specular");
+        if (m->conductor) features.insert("conductor");
+        if (!m->fluorescence.empty()) features.insert("fluorescence");
+        if (m->diffuse && m->diffuse->roughnessDegrees > 0) features.insert("diffuse roughness");
     }
     for (const sd_light& light : world.lights) {
-        static constexpr std::array<const char*, 5> names{"", "point", "spot", "directional", "ambient"};
+        static constexpr std::array<const char*, 6> names{"", "point", "spot", "directional", "ambient", "background"};
         features.insert(names[static_cast<size_t>(light.type)]);
     }
     if (background) features.insert("background");
     return {features.begin(), features.end()};
 }
 
-/// Kernel switches: a feature that is not listed costs no instruction.
-std::vector<std::string> definesOf(const std::vector<std::string>& features, int samples) {
-    static constexpr std::array<std::pair<const char*, const char*>, 5> switches{
-        {{"gloss", "HAS_COAT"}, {"point", "HAS_POINT"}, {"spot", "HAS_SPOT"}, {"directional", "HAS_DIRECTIONAL"}, {"ambient", "HAS_AMBIENT"}}};
-    std::vector<std::string> defines;
-    for (const auto& [feature, define] : switches)
-        if (std::find(features.begin(), features.end(), feature) != features.end()) defines.emplace_back(define);
-    defines.push_back(fmt::format("SLOTS={}", lanePattern(samples, 1).slots));
-    return defines;
+/// Kernel switches, from what the world really holds: a feature that it lacks costs no instruction.
+std::vector<std::string> definesOf(const World& world, int samples) {
+    std::set<std::string> defines{fmt::format("SLOTS={}", lanePattern(samples, 1).slots)};
+    for (const sd_light& light : world.lights) {
+        static constexpr std::array<const char*, 6> switches{"", "HAS_POINT", "HAS_SPOT", "HAS_DIRECTIONAL", "HAS_UNIFORM", "HAS_UNIFORM"};
+        defines.insert(switches[static_cast<size_t>(light.type)]);
+    }
+    for (const sd_lobe& lobe : world.lobes) {
+        if (lobe.type == SD_LOBE_ROUGH) defines.insert("HAS_ROUGH");
+        if (lobe.type == SD_LOBE_COATED) defines.insert("HAS_COATED");
+        if (lobe.type == SD_LOBE_FACETS) defines.insert("HAS_FACETS");
+    }
+    return {defines.begin(), defines.end()};
 }
 
 }  // namespace
@@ -165,7 +173,8 @@ Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library&
     const double y = plan.white[1];
     for (double& value : plan.white) value /= y;
 
-    TermBuilder builder(plan.wavelengths, observer, std::move(groups), plan.world, plan.terms);
+    plan.groups = static_cast<std::uint32_t>(groups.size());
+    TermBuilder builder(plan.wavelengths, observer, std::move(groups), settings.only, plan.world, plan.terms, notes);
     const Emitter* background = scene.background ? &*scene.background : nullptr;
     builder.addBackground(background, background ? absoluteFactor(*background, observer) : 0);
     for (const Material* material : materials)
@@ -173,7 +182,7 @@ Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library&
     addGeometry(plan.world, flat, plan.view, number);
 
     plan.features = featuresOf(materials, plan.world, background != nullptr);
-    plan.defines = definesOf(plan.features, plan.samples);
+    plan.defines = definesOf(plan.world, plan.samples);
     return plan;
 }
 

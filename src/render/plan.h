@@ -17,6 +17,7 @@ struct Plan {
     std::string cameraName, passName;
     View view;
     World world;
+    std::uint32_t groups = 0;           ///< of lights with one spectrum each
     TermTable terms;                    ///< the spectra of all (light, lobe, material) terms on the output's bands
     Wavelengths wavelengths;
     int samples = 16;

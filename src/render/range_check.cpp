@@ -59,6 +59,8 @@ void noteExtensions(const Wavelengths& grid, const std::vector<const Material*>&
     for (const Material* material : materials) {
         if (material->diffuse && material->diffuse->reflectance) check(*material->diffuse->reflectance);
         if (material->gloss) check(material->gloss->ior);
+        if (material->specular) check(material->specular->reflectance);
+        if (material->conductor) check(material->conductor->ior);
     }
 }
 

@@ -12,12 +12,16 @@
 
 namespace spectrad {
 
+/// Which part of what comes from surfaces is wanted (render --only).
+enum class Only { everything, reflection, fluorescence };
+
 struct RenderSettings {
     std::optional<Wavelengths> wavelengths;       ///< instead of the scene's
     std::optional<Projection> projection;         ///< instead of the wavelengths' own
     std::optional<std::pair<int, int>> size;      ///< width, height in pixels
     std::optional<int> samples;                   ///< per pixel, 1…64; 16 if nobody says
     std::string camera, pass;                     ///< names; empty: the scene's choice (docs/format.md, "Passes")
+    Only only = Only::everything;
     std::uint64_t stripBytes = 0;                 ///< device memory a strip may take; 0: chosen from the device
 };
 

@@ -78,7 +78,7 @@ void Stages::uploadWorld() {
     up(triangleMaterial_, world.triangleMaterial, "the scene's triangles");
     up(materials_, world.materials, "the materials");
     up(lobes_, world.lobes, "the materials");
-    up(tables_, world.tables, "the coats' tables");
+    up(tables_, world.tables, "the materials' tables");
     up(lights_, world.lights, "the lights");
     up(spectra_, plan_.terms.spectra, "the terms' spectra");
     up(previewSpectra_, plan_.terms.preview, "the terms' colours");
@@ -243,6 +243,7 @@ bool Stages::light(int firstRow, int rows) {
         .set("tables", tables_.buffer())
         .set("lights", lights_.buffer())
         .set("light_count", static_cast<cl_uint>(plan_.world.lights.size()))
+        .set("groups", static_cast<cl_uint>(plan_.groups))
         .set("frame", frame_)
         .set("pattern_x", laneX_.buffer())
         .set("pattern_y", laneY_.buffer())

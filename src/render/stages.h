@@ -56,7 +56,7 @@ class Stages {
     DeviceArray<sd_vertex> screen_;
     DeviceArray<sd_material> materials_;
     DeviceArray<sd_lobe> lobes_;
-    DeviceArray<sd_albedo> tables_;
+    DeviceArray<sd_piece> tables_;
     DeviceArray<sd_light> lights_;
     DeviceArray<std::int32_t> slotX_, slotY_, laneX_, laneY_, used_;
 

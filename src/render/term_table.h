@@ -1,12 +1,15 @@
 // The spectra of terms: light × lobe of a material, on the output's bands and for the preview. The table has no position in it.
 #pragma once
 
+#include "render/angle_table.h"
 #include "render/light_groups.h"
+#include "render/settings.h"
 #include "render/world.h"
 #include "scene/scene.h"
 #include "spectrum/wavelengths.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace spectrad {
@@ -21,30 +24,52 @@ struct TermTable {
     [[nodiscard]] size_t count() const { return preview.size() / 3; }
 };
 
-/// What a scene material needs: its lobes and terms, appended to world and table.
+/// Part of a term's spectrum: factor × the product of the curves.
+struct Summand {
+    std::vector<const Curve*> product;
+    double factor = 1;
+};
+
+/// Appends materials' lobes to a world and the lobes' terms to a table. The order of terms is [lobe][function][light group].
 class TermBuilder {
   public:
-    TermBuilder(const Wavelengths& grid, const Detector& observer, std::vector<LightGroup> groups, World& world,
-                TermTable& terms);
+    TermBuilder(const Wavelengths& grid, const Detector& observer, std::vector<LightGroup> groups, Only only, World& world,
+                TermTable& terms, Notes& notes);
 
     /// Material 0 of the world; without a background it has no terms.
     void addBackground(const Emitter* background, double factor);
-    /// Returns the world's number of the material. Throws InputError for lobes that are not there yet.
+    /// Returns the world's number of the material. Throws InputError for combinations that have no meaning, and for what is not
+    /// there yet.
     std::uint32_t add(const Material& material, double emissionFactor);
 
+    [[nodiscard]] const std::vector<LightGroup>& groups() const { return groups_; }
+
   private:
-    void addTerm(std::vector<const Curve*> product, double factor);
-    void addGroupTerms(const Curve& response);
+    /// `clip`: bands below zero (signed noise of a measurement) become zero, and are counted in the notes.
+    void addTerm(const std::vector<Summand>& sum, bool clip = false);
+    /// Once per group: light × response.
+    void addGroupTerms(const Curve& response, double factor = 1);
     std::uint32_t beginMaterial();
-    sd_lobe beginLobe(int type) const;
+    [[nodiscard]] sd_lobe beginLobe(int type) const;
     void endLobe(const sd_lobe& lobe);
-    void addCoat(const Gloss& gloss, const Curve& base);
+    std::uint32_t addTables(const std::vector<std::vector<sd_piece>>& tables);
+
+    void addDiffuse(const Material& material);
+    void addRough(const Material& material, const Curve& base);
+    void addGloss(const Material& material);
+    void addSpecular(const Material& material);
+    void addConductor(const Material& material);
+    /// Diffuse base under a coat, its terms weighted by `weight` (one factor of the spectrum).
+    void addCoatedBase(const Material& material, const Curve& weight, const AngleFunction& through, double meanThrough, double inside);
+    void addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra, double alpha);
 
     const Wavelengths& grid_;
     const Detector& observer_;
     std::vector<LightGroup> groups_;
+    Only only_;
     World& world_;
     TermTable& terms_;
+    Notes& notes_;
 };
 
 }  // namespace spectrad

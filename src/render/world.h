@@ -27,7 +27,7 @@ struct World {
     std::vector<std::uint32_t> triangleMaterial;  ///< one a triangle, index into materials
     std::vector<sd_material> materials;           ///< [0] is the background
     std::vector<sd_lobe> lobes;
-    std::vector<sd_albedo> tables;
+    std::vector<sd_piece> tables;
     std::vector<sd_light> lights;
 };
 

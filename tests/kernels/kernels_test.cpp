@@ -136,6 +136,6 @@ TEST_CASE("structs have the same layout on host and device") {
     const std::vector<std::uint32_t> expected{
         sizeof(sd_frame),    offsetof(sd_frame, tiles_y), sizeof(sd_draw),     offsetof(sd_draw, normal),
         sizeof(sd_vertex),   sizeof(sd_large),            offsetof(sd_large, key), sizeof(sd_light),
-        offsetof(sd_light, group), sizeof(sd_lobe),       sizeof(sd_albedo),   sizeof(sd_material)};
+        offsetof(sd_light, group), sizeof(sd_lobe),       sizeof(sd_piece),   sizeof(sd_material)};
     CHECK(sizes == expected);
 }

@@ -1,6 +1,7 @@
 #include "kernels/random_world.h"
 
-#include "render/coat_albedo.h"
+#include "render/facets.h"
+#include "render/fresnel.h"
 #include "render/samples.h"
 
 #include <cmath>
@@ -13,23 +14,29 @@ namespace {
 using Random = std::mt19937;
 double uniform(Random& random, double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); }
 
-void addLobe(World& world, int type, std::uint32_t& term, std::uint32_t count, std::uint32_t table, double alpha, const CoatAlbedo* coat) {
+/// A lobe with tables of its own; `functions` angle functions for microfacets.
+void addLobe(Plan& plan, int type, std::uint32_t& term, double alpha, std::uint32_t functions = 0, bool multipleApart = false) {
+    World& world = plan.world;
     sd_lobe lobe{};
     lobe.type = type;
     lobe.term = term;
+    lobe.table = static_cast<sd_uint>(world.tables.size());
+    lobe.functions = functions;
+    lobe.multiple_to = multipleApart ? functions : 0;
+    lobe.multiple = 0.3f;
     lobe.alpha = static_cast<float>(alpha);
-    lobe.ior = 1.5f;
-    lobe.table = table;
-    lobe.weight = 1;
-    if (coat) {
-        lobe.multiple = static_cast<float>(coat->multiple);
-        lobe.mean_through = static_cast<float>(coat->meanThrough);
+    lobe.mean_through = 0.9f;
+    const size_t tables = type == SD_LOBE_FACETS ? 1 + 2 * functions : type == SD_LOBE_EMISSION || type == SD_LOBE_DIFFUSE ? 0 : 1;
+    for (size_t t = 0; t < tables; ++t) {
+        const auto table = tabulate([&](double c) { return fresnelDielectric(c, 1.3 + 0.2 * static_cast<double>(t)); });
+        world.tables.insert(world.tables.end(), table.begin(), table.end());
     }
     world.lobes.push_back(lobe);
-    term += count;
+    const std::uint32_t blocks = type == SD_LOBE_FACETS ? functions + (multipleApart ? 1 : 0) : type == SD_LOBE_ROUGH ? 2 : 1;
+    term += type == SD_LOBE_EMISSION ? 1 : blocks * plan.groups;
 }
 
-void addMaterials(Plan& plan, std::uint32_t groups) {
+void addMaterials(Plan& plan) {
     World& world = plan.world;
     std::uint32_t terms = 0;
     const auto begin = [&] {
@@ -44,22 +51,21 @@ void addMaterials(Plan& plan, std::uint32_t groups) {
         m.terms = used;
         terms += used;
     };
+    // Background; Lambert; coated; coated mirror; glowing Lambert; rough; metal of three functions.
     std::uint32_t term = 0;
-    begin(), addLobe(world, SD_LOBE_EMISSION, term, 1, 0, 0, nullptr), end(term);
+    begin(), addLobe(plan, SD_LOBE_EMISSION, term, 0), end(term);
     term = 0;
-    begin(), addLobe(world, SD_LOBE_DIFFUSE, term, groups, 0, 0, nullptr), end(term);
+    begin(), addLobe(plan, SD_LOBE_DIFFUSE, term, 0), end(term);
     for (double alpha : {0.25, 0.0}) {
-        const CoatAlbedo coat = coatAlbedo(1.5, alpha);
-        const auto table = static_cast<std::uint32_t>(world.tables.size());
-        world.tables.insert(world.tables.end(), coat.table.begin(), coat.table.end());
         term = 0;
-        begin();
-        addLobe(world, SD_LOBE_COATED, term, groups, table, 0, &coat);
-        addLobe(world, SD_LOBE_COAT, term, groups, table, alpha, &coat);
-        end(term);
+        begin(), addLobe(plan, SD_LOBE_COATED, term, 0), addLobe(plan, SD_LOBE_FACETS, term, alpha, 1), end(term);
     }
     term = 0;
-    begin(), addLobe(world, SD_LOBE_EMISSION, term, 1, 0, 0, nullptr), addLobe(world, SD_LOBE_DIFFUSE, term, groups, 0, 0, nullptr), end(term);
+    begin(), addLobe(plan, SD_LOBE_EMISSION, term, 0), addLobe(plan, SD_LOBE_DIFFUSE, term, 0), end(term);
+    term = 0;
+    begin(), addLobe(plan, SD_LOBE_ROUGH, term, 0.4), end(term);
+    term = 0;
+    begin(), addLobe(plan, SD_LOBE_FACETS, term, 0.09, 3, true), end(term);
     plan.terms.bands = 7;
     Random random(99);
     for (std::uint32_t t = 0; t < terms; ++t) {
@@ -84,6 +90,7 @@ void addLights(World& world) {
     add(SD_LIGHT_SPOT, -2, 2, 1, 1, 20);
     add(SD_LIGHT_DIRECTIONAL, 0.48f, 0.6f, 0.64f, 0, 0.7f);
     add(SD_LIGHT_AMBIENT, 0, 0, 0, 1, 0.4f);
+    add(SD_LIGHT_SURROUNDINGS, 0, 0, 0, 0, 0.2f);
 }
 
 Plan emptyPlan(int samples, bool orthographic, int width, int height) {
@@ -94,12 +101,13 @@ Plan emptyPlan(int samples, bool orthographic, int width, int height) {
     plan.view.height = height;
     plan.view.pixelsPerSlope = orthographic ? height / 4.0 : height * 0.9;
     plan.wavelengths.nm = {400, 450, 500, 550, 600, 650, 700};
-    plan.defines = {"HAS_COAT", "HAS_AMBIENT", "HAS_POINT", "HAS_SPOT", "HAS_DIRECTIONAL", "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
+    plan.defines = {"HAS_COATED", "HAS_FACETS", "HAS_ROUGH", "HAS_UNIFORM", "HAS_POINT", "HAS_SPOT", "HAS_DIRECTIONAL", "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
     sd_draw draw{};
     draw.to_camera[0] = draw.to_camera[5] = draw.to_camera[10] = 1;
     draw.normal[0] = draw.normal[4] = draw.normal[8] = 1;
     plan.world.draws.push_back(draw);
-    addMaterials(plan, 2);
+    plan.groups = 2;
+    addMaterials(plan);
     addLights(plan.world);
     return plan;
 }
@@ -112,7 +120,7 @@ void addVertex(World& world, double x, double y, double z, Random& random) {
 
 void addTriangle(World& world, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     for (std::uint32_t i : {a, b, c}) world.index.push_back(i);
-    world.triangleMaterial.push_back(static_cast<std::uint32_t>(1 + world.triangleMaterial.size() % 4));
+    world.triangleMaterial.push_back(static_cast<std::uint32_t>(1 + world.triangleMaterial.size() % 6));
 }
 
 }  // namespace

@@ -34,8 +34,4 @@ Block light(const Plan& plan, const Vertices& vertices, const sd_frame& frame, c
 /// [band][SD_BLOCK]
 std::vector<float> expand(const Block& block, const std::vector<float>& spectra, size_t bands);
 
-/// Fresnel, table look-up and lobe of one sample: exposed for the comparison with double precision.
-float coatBrdf(const sd_lobe& lobe, float cosView, float cosLight, float cosHalf, float acrossSquare, float cosDiff,
-               float missingView, float missingLight);
-
 }  // namespace spectrad::twin

@@ -71,36 +71,19 @@ Surface surfaceAt(const World& world, const Vertices& vertices, const sd_frame& 
 
 constexpr float inversePi = 0.31830988618379067f;
 
-void lookUp(const sd_albedo* table, float cosine, float& through, float& missing) {
-    const float at = std::clamp(cosine, 0.0f, 1.0f) * static_cast<float>(SD_TABLE_CELLS);
-    const int cell = std::min(static_cast<int>(at), SD_TABLE_CELLS - 1);
-    const float t = at - static_cast<float>(cell);
-    const sd_albedo from = table[cell], to = table[cell + 1];
-    through = std::fma(t, to.through - from.through, from.through);
-    missing = std::fma(t, to.missing - from.missing, from.missing);
+struct Cell {
+    int cell;
+    float t;
+};
+Cell cellOf(float cosine) {
+    const float at = std::sqrt(std::clamp(cosine, 0.0f, 1.0f)) * static_cast<float>(SD_CELLS);
+    const int cell = std::min(static_cast<int>(at), SD_CELLS - 1);
+    return {cell, at - static_cast<float>(cell)};
 }
-
-float fresnel(float c, float n) {
-    const float square = std::fma(c, c, n * n - 1.0f);
-    if (square < 0) return 1;
-    const float g = std::sqrt(std::fmax(square, 0.0f));
-    const float a = (g - c) / (g + c), b = std::fma(c, g + c, -1.0f) / std::fma(c, g - c, 1.0f);
-    return 0.5f * a * a * std::fma(b, b, 1.0f);
+float lookUp(const sd_piece* table, Cell at) {
+    const float* c = table[at.cell].c;
+    return std::fma(at.t, std::fma(at.t, std::fma(at.t, c[3], c[2]), c[1]), c[0]);
 }
-
-}  // namespace
-
-float coatBrdf(const sd_lobe& lobe, float cosView, float cosLight, float cosHalf, float acrossSquare, float cosDiff,
-               float missingView, float missingLight) {
-    const float a2 = lobe.alpha * lobe.alpha;
-    const float width = std::fma(cosHalf * cosHalf, a2, acrossSquare);
-    const float shadowView = cosLight * std::sqrt(std::fma(cosView * cosView, 1.0f - a2, a2));
-    const float shadowLight = cosView * std::sqrt(std::fma(cosLight * cosLight, 1.0f - a2, a2));
-    const float facets = (a2 * inversePi) / (width * width) * 0.5f / (shadowView + shadowLight);
-    return std::fma(facets, fresnel(cosDiff, lobe.ior), missingView * missingLight * lobe.multiple);
-}
-
-namespace {
 
 float arriving(const sd_light& light, V position, V& toLight) {
     if (light.type == SD_LIGHT_DIRECTIONAL) {
@@ -120,47 +103,73 @@ float arriving(const sd_light& light, V position, V& toLight) {
     return square == 0.0f ? 0.0f : strength;
 }
 
-/// Calls add(call, term, g) for every lobe and light that add to one sample; `call` numbers (lobe, light) pairs.
-void shade(const World& world, const sd_material& material, const Surface& s,
-           const std::function<void(size_t, std::uint32_t, float)>& add) {
-    const size_t lights = world.lights.size();
+/// Calls add(call, term, g) for everything that lobes and lights add to one sample; `call` orders the additions.
+void shade(const Plan& plan, const sd_material& material, const Surface& s, const std::function<void(size_t, std::uint32_t, float)>& add) {
+    const World& world = plan.world;
+    const std::uint32_t groups = plan.groups;
+    size_t call = 0;
     for (std::uint32_t l = 0; l < material.lobes; ++l) {
         const sd_lobe& lobe = world.lobes[material.first_lobe + l];
         if (lobe.type == SD_LOBE_EMISSION) {
-            add(l * (lights + 1), lobe.term, 1.0f);
+            add(call++, lobe.term, 1.0f);
             continue;
         }
-        const sd_albedo* table = world.tables.data() + lobe.table;
-        float throughView = 1, missingView = 0;
-        if (lobe.type != SD_LOBE_DIFFUSE) lookUp(table, s.cosView, throughView, missingView);
-        for (size_t k = 0; k < lights; ++k) {
-            const sd_light& light = world.lights[k];
-            const size_t call = l * (lights + 1) + k;
-            if (light.type == SD_LIGHT_AMBIENT) {
-                float g = light.scale;
-                if (lobe.type == SD_LOBE_COATED) g = light.scale * throughView * lobe.mean_through;
-                if (lobe.type == SD_LOBE_COAT) g = light.scale * inversePi * (1.0f - throughView);
-                add(call, lobe.term + light.group, g);
+        const sd_piece* table = world.tables.data() + lobe.table;
+        const Cell viewCell = cellOf(s.cosView);
+        const float first = lobe.type == SD_LOBE_DIFFUSE ? 0.0f : lookUp(table, viewCell);
+        constexpr size_t callsALight = 16;
+        for (const sd_light& light : world.lights) {
+            const size_t base = call;
+            call += callsALight;
+            const std::uint32_t term = lobe.term + light.group;
+            if (light.type == SD_LIGHT_AMBIENT || light.type == SD_LIGHT_SURROUNDINGS) {
+                if (light.type == SD_LIGHT_SURROUNDINGS && !(lobe.type == SD_LOBE_FACETS && lobe.alpha == 0)) continue;
+                if (lobe.type == SD_LOBE_DIFFUSE) add(base, term, light.scale);
+                if (lobe.type == SD_LOBE_ROUGH) {
+                    add(base, term, light.scale * (1.0f - first));
+                    add(base + 1, term + groups, light.scale * first);
+                }
+                if (lobe.type == SD_LOBE_COATED) add(base, term, light.scale * first * lobe.mean_through);
+                if (lobe.type == SD_LOBE_FACETS) {
+                    for (std::uint32_t f = 0; f < lobe.functions; ++f)
+                        add(base + f, term + f * groups, light.scale * inversePi * lookUp(table + (1 + f) * SD_CELLS, viewCell));
+                    if (lobe.multiple_to == lobe.functions)
+                        add(base + lobe.functions, term + lobe.functions * groups, light.scale * inversePi * first);
+                }
                 continue;
             }
             V toLight{};
             const float strength = arriving(light, s.position, toLight);
             const float cosLight = dot(s.normal, toLight);
             if (!(cosLight > 0)) continue;
-            float g = strength * cosLight;
-            if (lobe.type != SD_LOBE_DIFFUSE) {
-                float throughLight = 1, missingLight = 0;
-                lookUp(table, cosLight, throughLight, missingLight);
-                if (lobe.type == SD_LOBE_COATED) g = g * (throughView * throughLight);
-                if (lobe.type == SD_LOBE_COAT) {
-                    if (lobe.alpha == 0) continue;
-                    const V h = unit({toLight.x + s.view.x, toLight.y + s.view.y, toLight.z + s.view.z});
-                    const V across = crossed(s.normal, h);
-                    g = g * coatBrdf(lobe, s.cosView, cosLight, dot(s.normal, h), dot(across, across), std::clamp(dot(s.view, h), 0.0f, 1.0f),
-                                     missingView, missingLight);
-                }
+            const float irradiance = strength * cosLight;
+            if (lobe.type == SD_LOBE_DIFFUSE) add(base, term, irradiance);
+            if (lobe.type == SD_LOBE_COATED) add(base, term, irradiance * (first * lookUp(table, cellOf(cosLight))));
+            if (lobe.type == SD_LOBE_ROUGH) {
+                const float beyond = std::fma(-cosLight, s.cosView, dot(toLight, s.view));
+                const float divisor = beyond > 0 ? std::fmax(cosLight, s.cosView) : 1.0f;
+                const float single = lobe.mean_through * std::fma(lobe.alpha, beyond / divisor, 1.0f);
+                add(base, term, irradiance * single);
+                add(base + 1, term + groups, irradiance * (first * lookUp(table, cellOf(cosLight)) * lobe.multiple));
             }
-            add(call, lobe.term + light.group, g);
+            if (lobe.type == SD_LOBE_FACETS && lobe.alpha != 0) {
+                const V h = unit({toLight.x + s.view.x, toLight.y + s.view.y, toLight.z + s.view.z});
+                const float cosHalf = dot(s.normal, h), cosDiff = std::clamp(dot(s.view, h), 0.0f, 1.0f);
+                const V across = crossed(s.normal, h);
+                const float a2 = lobe.alpha * lobe.alpha;
+                const float width = std::fma(cosHalf * cosHalf, a2, dot(across, across));
+                const float shadowView = cosLight * std::sqrt(std::fma(s.cosView * s.cosView, 1.0f - a2, a2));
+                const float shadowLight = s.cosView * std::sqrt(std::fma(cosLight * cosLight, 1.0f - a2, a2));
+                const float shape = (a2 * inversePi) / (width * width) * 0.5f / (shadowView + shadowLight) * irradiance;
+                const float multiple = first * lookUp(table, cellOf(cosLight)) * lobe.multiple * irradiance;
+                const Cell facing = cellOf(cosDiff);
+                for (std::uint32_t f = 0; f < lobe.functions; ++f) {
+                    float g = shape * lookUp(table + (1 + lobe.functions + f) * SD_CELLS, facing);
+                    if (f == lobe.multiple_to) g += multiple;
+                    add(base + f, term + f * groups, g);
+                }
+                if (lobe.multiple_to == lobe.functions) add(base + lobe.functions, term + lobe.functions * groups, multiple);
+            }
         }
     }
 }
@@ -219,7 +228,7 @@ Block light(const Plan& plan, const Vertices& vertices, const sd_frame& frame, c
                 const size_t slot = (lane + i) % slots;
                 const int sx = (blockColumn * SD_BLOCK + static_cast<int>(x)) * 256 - frame.width * 128 + lanes.slotX[slot];
                 const int sy = row * 256 - frame.height * 128 + lanes.slotY[slot];
-                shade(world, material, surfaceAt(world, vertices, frame, id, static_cast<float>(sx), static_cast<float>(sy)), add);
+                shade(plan, material, surfaceAt(world, vertices, frame, id, static_cast<float>(sx), static_cast<float>(sy)), add);
             }
             for (const auto& [call, entry] : adds)
                 block.g[(offset[m] + entry.first) * SD_BLOCK + x] += pairwise(entry.second, 0, group);

@@ -1,0 +1,150 @@
+/* What a surface does with light, lobe by lobe: bidirectional reflectance without its spectrum. Each lobe adds its g to one or more
+ * terms; HAS_ switches leave out what the plan does not need. */
+#include "surface.h"
+
+#define INV_PI 0.31830988618379067f
+
+/* Adds lanes to their pixels' sums: neighbours pairwise, so that the order of addition is the same everywhere. */
+static inline void add_to(global float* sums, vfloat v) {
+#if VW == 1
+    *sums += v;
+#elif SLOTS == 1
+    vstore16(vload16(0, sums) + v, 0, sums);
+#else
+    const float8 v8 = v.even + v.odd;
+#if SLOTS == 2
+    vstore8(vload8(0, sums) + v8, 0, sums);
+#else
+    const float4 v4 = v8.even + v8.odd;
+#if SLOTS == 4
+    vstore4(vload4(0, sums) + v4, 0, sums);
+#else
+    const float2 v2 = v4.even + v4.odd;
+#if SLOTS == 8
+    vstore2(vload2(0, sums) + v2, 0, sums);
+#else
+    *sums += v2.x + v2.y;
+#endif
+#endif
+#endif
+#endif
+}
+
+/* Where a cosine falls in the tables: the piece of each lane and the place within. */
+typedef struct table_cell {
+    vint cell;
+    vfloat t;
+} table_cell;
+
+#if defined(HAS_ROUGH) || defined(HAS_COATED) || defined(HAS_FACETS)
+static inline table_cell cell_of(vfloat cosine) {
+    const vfloat at = sqrt(clamp(cosine, 0.0f, 1.0f)) * (float)SD_CELLS;
+    table_cell c;
+    c.cell = min(V_INT(at), SD_CELLS - 1);
+    c.t = at - V_FLOAT(c.cell);
+    return c;
+}
+
+/* A tabulated function of the cosine: lanes fetch their own pieces. */
+static vfloat look_up(global const sd_piece* table, table_cell at) {
+    int cells[VW];
+    float c0[VW], c1[VW], c2[VW], c3[VW];
+    VSTORE(at.cell, cells);
+    for (int i = 0; i < VW; ++i) {
+        const float4 c = vload4(0, table[cells[i]].c);
+        c0[i] = c.x, c1[i] = c.y, c2[i] = c.z, c3[i] = c.w;
+    }
+    return fma(at.t, fma(at.t, fma(at.t, VLOAD(c3), VLOAD(c2)), VLOAD(c1)), VLOAD(c0));
+}
+#endif
+
+/* What a lobe needs of the view direction, the same under all lights. */
+typedef struct lobe_view {
+    vfloat first; /* the lobe's first table at the view: through, 1 - albedo, or missing */
+    table_cell cell;
+} lobe_view;
+
+static lobe_view view_of(sd_lobe lobe, global const sd_piece* tables, surface s) {
+    lobe_view v;
+    v.first = 0.0f;
+    v.cell.cell = 0;
+    v.cell.t = 0.0f;
+#if defined(HAS_ROUGH) || defined(HAS_COATED) || defined(HAS_FACETS)
+    if (lobe.type != SD_LOBE_DIFFUSE) {
+        v.cell = cell_of(s.cos_view);
+        v.first = look_up(tables + lobe.table, v.cell);
+    }
+#endif
+    return v;
+}
+
+#ifdef HAS_ROUGH
+/* Oren & Nayar 1994 by its ratio B/A, in the form that keeps energy (Portsmouth, Kutz & Hill 2024): single scattering and, as a
+ * term of its own because it reddens, multiple scattering. */
+static void rough(sd_lobe lobe, global const sd_piece* tables, surface s, v3 to_light, vfloat cos_light, vfloat irradiance,
+                  uint groups, lobe_view at_view, vint lit, global float* term) {
+    const vfloat beyond = fma(-cos_light, s.cos_view, dot3(to_light, s.view));
+    const vfloat divisor = select((vfloat)1.0f, fmax(cos_light, s.cos_view), beyond > 0.0f);
+    const vfloat single = lobe.mean_through * fma((vfloat)lobe.alpha, beyond / divisor, (vfloat)1.0f);
+    const vfloat missing_light = look_up(tables + lobe.table, cell_of(cos_light));
+    add_to(term, select((vfloat)0.0f, irradiance * single, lit));
+    add_to(term + groups * SD_BLOCK, select((vfloat)0.0f, irradiance * (at_view.first * missing_light * lobe.multiple), lit));
+}
+#endif
+
+#ifdef HAS_FACETS
+/* GGX (Walter et al. 2007) with height-correlated Smith shadowing (Heitz 2014), and what bounces more than once between facets
+ * (Kulla & Conty 2017). 1 - (n.h)^2 is taken as |n x h|^2, which keeps its digits on smooth surfaces. */
+static void facets(sd_lobe lobe, global const sd_piece* tables, surface s, v3 to_light, vfloat cos_light, vfloat irradiance,
+                   uint groups, lobe_view at_view, vint lit, global float* term) {
+    if (lobe.alpha == 0.0f) return; /* a mirror shows no point of light that has no size */
+    const v3 h = unit3(add3(to_light, s.view));
+    const vfloat cos_half = dot3(s.normal, h), cos_diff = clamp(dot3(s.view, h), 0.0f, 1.0f);
+    const v3 across = cross3(s.normal, h);
+    const float a2 = lobe.alpha * lobe.alpha;
+    const vfloat width = fma(cos_half * cos_half, (vfloat)a2, dot3(across, across));
+    const vfloat shadow_view = cos_light * sqrt(fma(s.cos_view * s.cos_view, (vfloat)(1.0f - a2), (vfloat)a2));
+    const vfloat shadow_light = s.cos_view * sqrt(fma(cos_light * cos_light, (vfloat)(1.0f - a2), (vfloat)a2));
+    const vfloat shape = (a2 * INV_PI) / (width * width) * 0.5f / (shadow_view + shadow_light) * irradiance;
+    const vfloat multiple = at_view.first * look_up(tables + lobe.table, cell_of(cos_light)) * lobe.multiple * irradiance;
+    const table_cell facing = cell_of(cos_diff);
+    global const sd_piece* fresnel = tables + lobe.table + (1 + lobe.functions) * SD_CELLS;
+    for (uint f = 0; f < lobe.functions; ++f) {
+        vfloat g = shape * look_up(fresnel + f * SD_CELLS, facing);
+        if (f == lobe.multiple_to) g += multiple;
+        add_to(term + f * groups * SD_BLOCK, select((vfloat)0.0f, g, lit));
+    }
+    if (lobe.multiple_to == lobe.functions) add_to(term + lobe.functions * groups * SD_BLOCK, select((vfloat)0.0f, multiple, lit));
+}
+#endif
+
+#ifdef HAS_UNIFORM
+/* Light of one radiance from everywhere: directional albedos instead of directions. */
+static void uniform_light(sd_lobe lobe, global const sd_piece* tables, float scale, uint groups, lobe_view at_view, vint mask,
+                          global float* term) {
+    switch (lobe.type) {
+        case SD_LOBE_DIFFUSE: add_to(term, select((vfloat)0.0f, (vfloat)scale, mask)); break;
+#ifdef HAS_ROUGH
+        case SD_LOBE_ROUGH:
+            add_to(term, select((vfloat)0.0f, scale * (1.0f - at_view.first), mask));
+            add_to(term + groups * SD_BLOCK, select((vfloat)0.0f, scale * at_view.first, mask));
+            break;
+#endif
+#ifdef HAS_COATED
+        case SD_LOBE_COATED: add_to(term, select((vfloat)0.0f, scale * at_view.first * lobe.mean_through, mask)); break;
+#endif
+#ifdef HAS_FACETS
+        case SD_LOBE_FACETS: {
+            global const sd_piece* albedo = tables + lobe.table + SD_CELLS;
+            for (uint f = 0; f < lobe.functions; ++f)
+                add_to(term + f * groups * SD_BLOCK,
+                       select((vfloat)0.0f, scale * INV_PI * look_up(albedo + f * SD_CELLS, at_view.cell), mask));
+            if (lobe.multiple_to == lobe.functions)
+                add_to(term + lobe.functions * groups * SD_BLOCK, select((vfloat)0.0f, scale * INV_PI * at_view.first, mask));
+            break;
+        }
+#endif
+        default: break;
+    }
+}
+#endif

@@ -1,0 +1,230 @@
+// Materials as lobes: which reflectances depend on the angle (tables), which on the wavelength (terms), and how much of the light
+// each leaves to the next, so that nothing gains energy.
+#include "render/facets.h"
+#include "render/fluorescence.h"
+#include "render/fresnel.h"
+#include "render/term_table.h"
+#include "spectrum/projection.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace spectrad {
+
+namespace {
+
+constexpr double inversePi = 1 / std::numbers::pi;
+
+/// A coat whose optics depend on the wavelength through one number only (its index, or its reflectance at normal incidence) is
+/// evaluated at a few values of that number; at any other it is the polynomial through them.
+struct Nodes {
+    std::vector<double> at;
+    [[nodiscard]] double weight(size_t i, double value) const {
+        double w = 1;
+        for (size_t k = 0; k < at.size(); ++k)
+            if (k != i) w *= (value - at[k]) / (at[i] - at[k]);
+        return w;
+    }
+};
+
+Nodes nodesFor(const Curve& curve) {
+    const auto [low, high] = curve.bounds();
+    if (high - low <= 1e-9 * std::max(std::abs(high), 1e-30)) return {{0.5 * (low + high)}};
+    // Chebyshev nodes; four leave less than 1e-6 of the reflectance of any glass, and are exact for Schlick's polynomial squared.
+    constexpr int count = 4;
+    Nodes nodes;
+    for (int i = 0; i < count; ++i)
+        nodes.at.push_back(0.5 * (low + high) + 0.5 * (high - low) * std::cos(std::numbers::pi * (i + 0.5) / count));
+    return nodes;
+}
+
+/// A coat at one value of its number: what it reflects and what it lets through.
+struct Coat {
+    FacetAlbedos facets;
+    double again = 0;     ///< reflectance of light that bounces between facets
+    double multiple = 0;  ///< factor of missing · missing, 1/sr
+    AngleFunction albedo, through;
+    double meanThrough = 1;
+};
+
+Coat coatOf(const AngleFunction& fresnel, double alpha) {
+    Coat coat;
+    coat.facets = facetAlbedos({fresnel}, alpha);
+    coat.again = multipleScattering(cosineMean(fresnel), coat.facets.whiteMean);
+    // What misses less than a millionth sends nothing round again.
+    const double missingMean = 1 - coat.facets.whiteMean;
+    coat.multiple = missingMean > 1e-6 ? coat.again * inversePi / missingMean : 0;
+    const double again = missingMean > 1e-6 ? coat.again : 0;
+    coat.albedo = [single = coat.facets.albedo.front(), white = coat.facets.white, again](double c) {
+        return std::clamp(single(c) + (1 - white(c)) * again, 0.0, 1.0);
+    };
+    coat.through = [albedo = coat.albedo](double c) { return 1 - albedo(c); };
+    coat.meanThrough = cosineMean(coat.through);
+    return coat;
+}
+
+const Curve& one() {
+    static const Curve curve = Curve::constant(1);
+    return curve;
+}
+
+}  // namespace
+
+void TermBuilder::addDiffuse(const Material& material) {
+    const Curve& base = material.diffuse->reflectance->curve();
+    if (material.diffuse->roughnessDegrees > 0) {
+        addRough(material, base);
+        return;
+    }
+    addCoatedBase(material, one(), {}, 1, 0);
+}
+
+void TermBuilder::addCoatedBase(const Material& material, const Curve& weight, const AngleFunction& through, double meanThrough,
+                                double inside) {
+    const bool coated = static_cast<bool>(through);
+    const FluorescentBase base(material, inside, notes_);
+    if (base.isBlack()) return;
+    sd_lobe lobe = beginLobe(coated ? SD_LOBE_COATED : SD_LOBE_DIFFUSE);
+    if (coated) {
+        lobe.table = addTables({tabulate(through)});
+        lobe.mean_through = static_cast<float>(meanThrough);
+    }
+    const double scale = inversePi / std::max(meanThrough, 1e-12);
+    for (const LightGroup& group : groups_) {
+        std::vector<Summand> sum;
+        const Curve reflectance = base.reflectance();
+        const std::vector<Curve> glow = base.reradiation(group.spectrum);
+        if (only_ != Only::fluorescence) sum.push_back({{&group.spectrum, &reflectance, &weight}, group.factor * scale});
+        if (only_ != Only::reflection)
+            for (const Curve& curve : glow) sum.push_back({{&curve, &weight}, group.factor * scale});
+        // A weight of a polynomial is signed by nature; without one only noise of a measured matrix is.
+        addTerm(sum, &weight == &one());
+    }
+    endLobe(lobe);
+}
+
+void TermBuilder::addRough(const Material& material, const Curve& base) {
+    const OrenNayar model = orenNayar(material.diffuse->roughnessDegrees);
+    sd_lobe lobe = beginLobe(SD_LOBE_ROUGH);
+    lobe.table = addTables({tabulate([&](double c) { return std::max(0.0, 1 - model.albedo(c)); })});
+    lobe.alpha = static_cast<float>(model.b / model.a);
+    lobe.mean_through = static_cast<float>(model.a);
+    lobe.multiple = static_cast<float>(1 / std::max(1 - model.mean, 1e-12));
+    if (only_ == Only::fluorescence) return;
+    addGroupTerms(base, inversePi);
+    const double mean = model.mean;
+    addGroupTerms(Curve::combined({base}, [mean](std::span<const double> v) { return v[0] * v[0] * mean / (1 - v[0] * (1 - mean)); }), inversePi);
+    endLobe(lobe);
+}
+
+void TermBuilder::addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra, double alpha) {
+    const FacetAlbedos facets = facetAlbedos(fresnel, alpha);
+    std::vector<std::vector<sd_piece>> tables{tabulate([&](double c) { return std::max(0.0, 1 - facets.white(c)); })};
+    for (const AngleFunction& f : facets.albedo) tables.push_back(tabulate(f));
+    for (const AngleFunction& f : fresnel) tables.push_back(tabulate(f));
+    sd_lobe lobe = beginLobe(SD_LOBE_FACETS);
+    lobe.table = addTables(tables);
+    lobe.functions = static_cast<sd_uint>(fresnel.size());
+    lobe.multiple_to = lobe.functions;
+    lobe.alpha = static_cast<float>(alpha);
+    const double missing = 1 - facets.whiteMean;
+    lobe.multiple = static_cast<float>(missing > 1e-6 ? inversePi / missing : 0);
+    for (const Curve& spectrum : spectra) addGroupTerms(spectrum);
+    // Light that bounces between facets takes the metal's colour once more each time; its mean reflectance is the same sum.
+    std::vector<double> means;
+    for (const AngleFunction& f : fresnel) means.push_back(cosineMean(f));
+    const double white = facets.whiteMean;
+    addGroupTerms(Curve::combined(spectra, [means, white](std::span<const double> v) {
+        double mean = 0;
+        for (size_t i = 0; i < means.size(); ++i) mean += means[i] * v[i];
+        return multipleScattering(std::clamp(mean, 0.0, 1.0), white);
+    }));
+    endLobe(lobe);
+}
+
+void TermBuilder::addGloss(const Material& material) {
+    const Curve& ior = material.gloss->ior.curve();
+    const Nodes nodes = nodesFor(ior);
+    const double alpha = material.gloss->roughness * material.gloss->roughness;
+    for (size_t i = 0; i < nodes.at.size(); ++i) {
+        const double n = nodes.at[i];
+        const Curve polynomial = Curve::combined({ior}, [nodes, i](std::span<const double> v) { return nodes.weight(i, v[0]); });
+        const Curve& weight = nodes.at.size() == 1 ? one() : polynomial;
+        const Coat coat = coatOf([n](double c) { return fresnelDielectric(c, n); }, alpha);
+        // What a diffuse base sends up is let through as what comes down, per solid angle inside (n² of it):
+        // 1 − r_inside = (1 − r_outside) / n², from the reciprocity of transmission.
+        const double inside = std::max(0.0, 1 - coat.meanThrough / (n * n));
+        addCoatedBase(material, weight, coat.through, coat.meanThrough, inside);
+        if (only_ == Only::fluorescence) continue;
+        sd_lobe lobe = beginLobe(SD_LOBE_FACETS);
+        lobe.table = addTables({tabulate([&](double c) { return std::max(0.0, 1 - coat.facets.white(c)); }), tabulate(coat.albedo),
+                                tabulate([n](double c) { return fresnelDielectric(c, n); })});
+        lobe.functions = 1;
+        lobe.multiple_to = 0;
+        lobe.alpha = static_cast<float>(alpha);
+        lobe.multiple = static_cast<float>(coat.multiple);
+        addGroupTerms(weight);
+        endLobe(lobe);
+    }
+}
+
+void TermBuilder::addSpecular(const Material& material) {
+    const Curve& r0 = material.specular->reflectance.curve();
+    const Nodes nodes = nodesFor(r0);
+    const double alpha = material.specular->roughness * material.specular->roughness;
+    for (size_t i = 0; i < nodes.at.size(); ++i) {
+        const double r = nodes.at[i];
+        const Curve polynomial = Curve::combined({r0}, [nodes, i](std::span<const double> v) { return nodes.weight(i, v[0]); });
+        const Curve& weight = nodes.at.size() == 1 ? one() : polynomial;
+        const Coat coat = coatOf([r](double c) { return fresnelSchlick(c, r); }, alpha);
+        addCoatedBase(material, weight, coat.through, coat.meanThrough, 0);
+    }
+    if (only_ == Only::fluorescence) return;
+    addFacets({[](double c) { return 1 - fresnelSchlick(c, 0); }, [](double c) { return fresnelSchlick(c, 0); }}, {r0, one()}, alpha);
+}
+
+void TermBuilder::addConductor(const Material& material) {
+    const Conductor& metal = *material.conductor;
+    const Curve &n = metal.ior.curves.at(0), &k = metal.ior.curves.at(1);
+    const double alpha = metal.roughness * metal.roughness;
+    const double from = grid_.nm.front(), to = std::max(grid_.nm.back(), grid_.nm.front() + 1);
+    if (only_ == Only::fluorescence) return;
+    const FresnelBasis basis = metal.schlick ? schlickBasis(n, k) : conductorBasis(n, k, from, to);
+    if (metal.schlick)
+        notes_.say(fmt::format("material '{}': Schlick's formula is off by up to {:.3f} in reflectance", material.name, schlickError(n, k, from, to)));
+    if (!basis.angle.empty()) addFacets(basis.angle, basis.spectrum, alpha);
+}
+
+std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) {
+    const auto refuse = [&](const char* what) { throw InputError(material.where, "material '" + material.name + "': " + what); };
+    if (material.diffuse && material.diffuse->texture) refuse("texture= is not there yet");
+    if (material.conductor && (material.diffuse || material.gloss || material.specular || !material.fluorescence.empty()))
+        refuse("a <conductor> is opaque and bare: it goes with no <diffuse>, <gloss>, <specular> or <fluorescence>");
+    if (material.gloss && material.specular) refuse("<gloss> and <specular> both describe the surface: give one of them");
+    if (material.diffuse && material.diffuse->roughnessDegrees > 0 && (material.gloss || material.specular || !material.fluorescence.empty()))
+        refuse("roughness= of <diffuse> goes with no coat and no fluorescence");
+
+    const std::uint32_t number = beginMaterial();
+    if (material.emission && only_ == Only::everything) {
+        const sd_lobe lobe = beginLobe(SD_LOBE_EMISSION);
+        addTerm({{{&material.emission->spectrum.curve()}, emissionFactor}});
+        endLobe(lobe);
+    }
+    if (groups_.empty()) return number;
+    if (material.conductor)
+        addConductor(material);
+    else if (material.gloss)
+        addGloss(material);
+    else if (material.specular)
+        addSpecular(material);
+    else if (material.diffuse && material.diffuse->roughnessDegrees > 0)
+        addDiffuse(material);
+    else if (material.diffuse || !material.fluorescence.empty())
+        addCoatedBase(material, one(), {}, 1, 0);
+    return number;
+}
+
+}  // namespace spectrad
