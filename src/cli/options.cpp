@@ -18,6 +18,12 @@ namespace {
 constexpr int largestSide = 65536;  // pixels (docs/format.md, "Limits")
 constexpr int mostSamples = 64;
 
+Only parseOnly(const std::string& text) {
+    if (text == "reflection") return Only::reflection;
+    if (text == "fluorescence") return Only::fluorescence;
+    throw UsageError("--only: '" + text + "' is not known (allowed: reflection, fluorescence)");
+}
+
 }  // namespace
 
 double parseNumber(const std::string& option, std::string_view text, double least, double most) {
@@ -86,6 +92,11 @@ void addSceneOptions(CLI::App& command, SceneArguments& arguments) {
                     "render this pass and what it needs; default: 'main', else the last")
         ->type_name("NAME");
     command
+        .add_option(
+            "--only", arguments.only,
+            "of what comes from surfaces, only what is reflected or what fluoresces; default: everything")
+        ->type_name("reflection|fluorescence");
+    command
         .add_option("--set", arguments.set,
                     "set an attribute of a named element, e.g. lamp.spectrum=illuminants/A; with a kind in "
                     "front where "
@@ -119,6 +130,7 @@ RenderSettings renderSettings(const SceneArguments& arguments) {
     if (!arguments.size.empty()) settings.size = parseSize("--size", arguments.size);
     if (!arguments.samples.empty())
         settings.samples = parseCount("--samples", arguments.samples, 1, mostSamples);
+    if (!arguments.only.empty()) settings.only = parseOnly(arguments.only);
     settings.camera = arguments.camera;
     settings.pass = arguments.pass;
     return settings;

@@ -48,7 +48,7 @@ struct Place {
 
 /// What chooses a picture of a scene; the same for every command that plans one.
 struct SceneArguments {
-    std::string file, wavelengths, projection, size, samples, camera, pass, device;
+    std::string file, wavelengths, projection, size, samples, camera, pass, only, device;
     std::vector<std::string> set;
     bool restricted = false;
 };

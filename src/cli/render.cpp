@@ -86,6 +86,7 @@ std::string recordedCommand(const RenderArguments& arguments) {
     add("--samples", scene.samples);
     add("--camera", scene.camera);
     add("--pass", scene.pass);
+    add("--only", scene.only);
     add("--device", scene.device);
     for (const std::string& set : scene.set)
         add("--set", set);
@@ -268,7 +269,8 @@ ExitCode render(const RenderArguments& arguments) {
             [&](double share) { bar.show(share); });
     }
     seconds.build = renderer.times().build;
-    seconds.render = renderer.times().render;
+    seconds.render =
+        renderer.times().render - seconds.write;  // the renderer waits while strips are taken from it
     const Stopwatch finishing;
     sayLosses(writer->finish(), console.notes());
     preview.write(output.preview, {plan.whiteName, plan.white, false});

@@ -91,7 +91,8 @@ TEST_CASE("values of options that cannot be are wrong usage, and name the option
         {"--device", "x"},       {"--wavelengths", "700:400:10"},
         {"--wavelengths", "a"},  {"--wavelengths", "500,500"},
         {"--projection", "hat"}, {"--compression", "lzma"},
-        {"--format", "tiff"},    {"--preview", "x.jpg"}};
+        {"--only", "x"},         {"--format", "tiff"},
+        {"--preview", "x.jpg"}};
     for (const auto& option : wrong) {
         INFO(option[0] << " " << option[1]);
         requireError(run(folder, {"render", "x.xml", option[0], option[1]}), 2, option[0]);
