@@ -32,12 +32,34 @@ static inline void expand_terms(const uint terms, global const float* g, global 
         STREAM(d, p + 48);
     }
 }
+
+/* Many terms, of which a band needs few: those whose span leaves the band out are passed over. */
+static void expand_many(const uint terms, global const float* g, global const uint* term, global const float* spectra,
+                        global const uint* spans, uint bands, size_t pitch, global float* out) {
+    for (uint band = 0; band < bands; ++band) {
+        float16 a = 0.0f, b = 0.0f, c = 0.0f, d = 0.0f;
+        for (uint t = 0; t < terms; ++t) {
+            if (band < spans[2 * term[t]] || band >= spans[2 * term[t] + 1]) continue;
+            const float s = spectra[(size_t)term[t] * bands + band];
+            a = fma((float16)s, vload16(0, g + t * SD_BLOCK), a);
+            b = fma((float16)s, vload16(1, g + t * SD_BLOCK), b);
+            c = fma((float16)s, vload16(2, g + t * SD_BLOCK), c);
+            d = fma((float16)s, vload16(3, g + t * SD_BLOCK), d);
+        }
+        global float* p = out + band * pitch;
+        STREAM(a, p);
+        STREAM(b, p + 16);
+        STREAM(c, p + 32);
+        STREAM(d, p + 48);
+    }
+}
 #endif
 
-/* spectra: `bands` floats a term; out: rows from the block first_block on. */
+/* spectra: `bands` floats a term; spans: first band and end of the bands in which a term is not zero (texture terms have three or
+ * so); out: rows from the block first_block on. */
 BLOCK_GROUP kernel void expand(global const float* g, global const uint* block_first, global const uint* block_term,
-                               global const float* spectra, uint bands, sd_frame frame, uint first_block, uint blocks,
-                               global float* out) {
+                               global const float* spectra, global const uint* spans, uint bands, sd_frame frame,
+                               uint first_block, uint blocks, global float* out) {
     if (BLOCK_ID >= blocks) return;
     const uint block = first_block + BLOCK_ID;
     const uint first = block_first[block], terms = block_first[block + 1] - first;
@@ -52,12 +74,14 @@ BLOCK_GROUP kernel void expand(global const float* g, global const uint* block_f
         case 2: expand_terms(2, g, term, spectra, bands, pitch, out); break;
         case 3: expand_terms(3, g, term, spectra, bands, pitch, out); break;
         case 4: expand_terms(4, g, term, spectra, bands, pitch, out); break;
-        default: expand_terms(terms, g, term, spectra, bands, pitch, out);
+        default: expand_many(terms, g, term, spectra, spans, bands, pitch, out);
     }
 #else
     for (uint band = 0; band < bands; ++band) {
         float sum = 0.0f;
-        for (uint t = 0; t < terms; ++t) sum = fma(spectra[(size_t)term[t] * bands + band], g[t * SD_BLOCK], sum);
+        for (uint t = 0; t < terms; ++t)
+            if (band >= spans[2 * term[t]] && band < spans[2 * term[t] + 1])
+                sum = fma(spectra[(size_t)term[t] * bands + band], g[t * SD_BLOCK], sum);
         out[band * pitch] = sum;
     }
 #endif

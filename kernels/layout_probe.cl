@@ -16,4 +16,5 @@ kernel void layout_probe(global uint* out) {
     out[9] = sizeof(sd_lobe);
     out[10] = sizeof(sd_piece);
     out[11] = sizeof(sd_material);
+    out[12] = sizeof(sd_texture);
 }

@@ -32,13 +32,13 @@ static vfloat arriving(sd_light light, v3 position, v3* to_light) {
 
 /* The g of one lobe under one light: added to the terms [function][group] of the lobe at `sums`. */
 static void shade_light(sd_lobe lobe, global const sd_piece* tables, sd_light light, uint groups, surface s, vint mask,
-                        lobe_view at_view, global float* sums) {
+                        lobe_view at_view, paint p, global float* sums) {
     global float* term = sums + (lobe.term + light.group) * SD_BLOCK;
 #ifdef HAS_UNIFORM
     if (light.type == SD_LIGHT_AMBIENT || light.type == SD_LIGHT_SURROUNDINGS) {
         /* The group's spectrum is the irradiance pi L of the uniform radiance L. */
         if (light.type == SD_LIGHT_SURROUNDINGS && !(lobe.type == SD_LOBE_FACETS && lobe.alpha == 0.0f)) return;
-        uniform_light(lobe, tables, light.scale, groups, at_view, mask, term);
+        uniform_light(lobe, tables, light.scale, groups, at_view, s, mask, p, term);
         return;
     }
 #endif
@@ -49,14 +49,14 @@ static void shade_light(sd_lobe lobe, global const sd_piece* tables, sd_light li
     if (!ANY(lit)) return;
     const vfloat irradiance = strength * cos_light;
     switch (lobe.type) {
-        case SD_LOBE_DIFFUSE: add_to(term, select((vfloat)0.0f, irradiance, lit)); break;
+        case SD_LOBE_DIFFUSE: add_painted(lobe, p, s, irradiance, lit, groups, term); break;
 #ifdef HAS_ROUGH
         case SD_LOBE_ROUGH: rough(lobe, tables, s, to_light, cos_light, irradiance, groups, at_view, lit, term); break;
 #endif
 #ifdef HAS_COATED
         case SD_LOBE_COATED: {
             const vfloat through = at_view.first * look_up(tables + lobe.table, cell_of(cos_light));
-            add_to(term, select((vfloat)0.0f, irradiance * through, lit));
+            add_painted(lobe, p, s, irradiance * through, lit, groups, term);
             break;
         }
 #endif
@@ -69,7 +69,7 @@ static void shade_light(sd_lobe lobe, global const sd_piece* tables, sd_light li
 
 /* All lobes of a material under all lights, for the lanes of `mask`; sums: g of the material's first term at the lanes' first pixel. */
 static void shade(sd_material material, global const sd_lobe* lobes, global const sd_piece* tables, global const sd_light* lights,
-                  uint light_count, uint groups, surface s, vint mask, global float* sums) {
+                  uint light_count, uint groups, surface s, vint mask, paint p, global float* sums) {
     for (uint l = 0; l < material.lobes; ++l) {
         const sd_lobe lobe = lobes[material.first_lobe + l];
         if (lobe.type == SD_LOBE_EMISSION) {
@@ -77,17 +77,19 @@ static void shade(sd_material material, global const sd_lobe* lobes, global cons
             continue;
         }
         const lobe_view at_view = view_of(lobe, tables, s);
-        for (uint k = 0; k < light_count; ++k) shade_light(lobe, tables, lights[k], groups, s, mask, at_view, sums);
+        for (uint k = 0; k < light_count; ++k) shade_light(lobe, tables, lights[k], groups, s, mask, at_view, p, sums);
     }
 }
 
 /* g: SD_BLOCK floats a term of each block, from block_first[block] on; the sum over samples divided by their number.
  * pattern_x, pattern_y: PATTERN lanes' offsets; pattern_used: -1 where a lane is a sample, 0 where it only fills the slots. */
 BLOCK_GROUP kernel void light_block(global const ulong* keys, global const uint* index, global const float* camera,
-                                    global const float* camera_normal, global const uint* triangle_material,
+                                    global const float* camera_normal, global const float* coordinates,
+                                    global const uint* triangle_material,
                                     global const sd_material* materials, global const sd_lobe* lobes,
                                     global const sd_piece* tables, global const sd_light* lights, uint light_count,
-                                    uint groups, sd_frame frame, constant int* pattern_x, constant int* pattern_y, constant int* pattern_used,
+                                    uint groups, global const sd_texture* textures, global const float* texels, sd_frame frame,
+                                    constant int* pattern_x, constant int* pattern_y, constant int* pattern_used,
                                     uint words, uint blocks, global const uint* sets, global const uint* block_first,
                                     global float* g) {
     const uint block = BLOCK_ID;
@@ -101,6 +103,7 @@ BLOCK_GROUP kernel void light_block(global const ulong* keys, global const uint*
     const int row = (int)(block / (uint)blocks_x), col = (int)(block % (uint)blocks_x) * SD_BLOCK;
     const int y0 = (row + frame.first_row) * SD_SUBPIXEL - frame.height * (SD_SUBPIXEL / 2);
     global const ulong* lanes = keys + (size_t)block * SD_BLOCK * SLOTS;
+    const paint p = {textures, texels};
     uint seen_material = 0, seen_offset = 0;
     int known = 0;
     for (int lane = FIRST_LANE; lane < END_LANE; lane += VW) {
@@ -134,8 +137,8 @@ BLOCK_GROUP kernel void light_block(global const ulong* keys, global const uint*
                 continue;
             }
             const vfloat x = V_FLOAT(x0 + VLOAD(pattern_x + lane % PATTERN)), y = V_FLOAT(y0 + VLOAD(pattern_y + lane % PATTERN));
-            const surface s = surface_at(index + 3 * (size_t)triangle, camera, camera_normal, frame, x, y);
-            shade(material, lobes, tables, lights, light_count, groups, s, mask, material_sums);
+            const surface s = surface_at(index + 3 * (size_t)triangle, camera, camera_normal, coordinates, frame, x, y);
+            shade(material, lobes, tables, lights, light_count, groups, s, mask, p, material_sums);
         }
     }
     const float inv_samples = 1.0f / (float)frame.samples;

@@ -1,34 +1,8 @@
 /* What a surface does with light, lobe by lobe: bidirectional reflectance without its spectrum. Each lobe adds its g to one or more
  * terms; HAS_ switches leave out what the plan does not need. */
-#include "surface.h"
+#include "texture.h"
 
 #define INV_PI 0.31830988618379067f
-
-/* Adds lanes to their pixels' sums: neighbours pairwise, so that the order of addition is the same everywhere. */
-static inline void add_to(global float* sums, vfloat v) {
-#if VW == 1
-    *sums += v;
-#elif SLOTS == 1
-    vstore16(vload16(0, sums) + v, 0, sums);
-#else
-    const float8 v8 = v.even + v.odd;
-#if SLOTS == 2
-    vstore8(vload8(0, sums) + v8, 0, sums);
-#else
-    const float4 v4 = v8.even + v8.odd;
-#if SLOTS == 4
-    vstore4(vload4(0, sums) + v4, 0, sums);
-#else
-    const float2 v2 = v4.even + v4.odd;
-#if SLOTS == 8
-    vstore2(vload2(0, sums) + v2, 0, sums);
-#else
-    *sums += v2.x + v2.y;
-#endif
-#endif
-#endif
-#endif
-}
 
 /* Where a cosine falls in the tables: the piece of each lane and the place within. */
 typedef struct table_cell {
@@ -78,6 +52,23 @@ static lobe_view view_of(sd_lobe lobe, global const sd_piece* tables, surface s)
     return v;
 }
 
+/* Where textures are. */
+typedef struct paint {
+    global const sd_texture* textures;
+    global const float* texels;
+} paint;
+
+/* A diffuse lobe's g, times its texture if it has one. */
+static inline void add_painted(sd_lobe lobe, paint p, surface s, vfloat g, vint mask, uint groups, global float* term) {
+#ifdef HAS_TEXTURE
+    if (lobe.texture != 0) {
+        add_textured(p.textures + lobe.texture - 1, p.texels, s, g, mask, groups, term);
+        return;
+    }
+#endif
+    add_to(term, select((vfloat)0.0f, g, mask));
+}
+
 #ifdef HAS_ROUGH
 /* Oren & Nayar 1994 by its ratio B/A, in the form that keeps energy (Portsmouth, Kutz & Hill 2024): single scattering and, as a
  * term of its own because it reddens, multiple scattering. */
@@ -120,10 +111,10 @@ static void facets(sd_lobe lobe, global const sd_piece* tables, surface s, v3 to
 
 #ifdef HAS_UNIFORM
 /* Light of one radiance from everywhere: directional albedos instead of directions. */
-static void uniform_light(sd_lobe lobe, global const sd_piece* tables, float scale, uint groups, lobe_view at_view, vint mask,
-                          global float* term) {
+static void uniform_light(sd_lobe lobe, global const sd_piece* tables, float scale, uint groups, lobe_view at_view, surface s,
+                          vint mask, paint p, global float* term) {
     switch (lobe.type) {
-        case SD_LOBE_DIFFUSE: add_to(term, select((vfloat)0.0f, (vfloat)scale, mask)); break;
+        case SD_LOBE_DIFFUSE: add_painted(lobe, p, s, scale, mask, groups, term); break;
 #ifdef HAS_ROUGH
         case SD_LOBE_ROUGH:
             add_to(term, select((vfloat)0.0f, scale * (1.0f - at_view.first), mask));
@@ -131,7 +122,7 @@ static void uniform_light(sd_lobe lobe, global const sd_piece* tables, float sca
             break;
 #endif
 #ifdef HAS_COATED
-        case SD_LOBE_COATED: add_to(term, select((vfloat)0.0f, scale * at_view.first * lobe.mean_through, mask)); break;
+        case SD_LOBE_COATED: add_painted(lobe, p, s, scale * at_view.first * lobe.mean_through, mask, groups, term); break;
 #endif
 #ifdef HAS_FACETS
         case SD_LOBE_FACETS: {

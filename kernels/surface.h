@@ -29,6 +29,9 @@ typedef struct surface {
     v3 normal;   /* unit, on the seen side */
     v3 view;     /* unit, towards the viewer */
     vfloat cos_view;
+#ifdef HAS_TEXTURE
+    vfloat u, v; /* texture coordinates, (0,0) bottom left */
+#endif
 } surface;
 
 /* Grazing views are held a little off the horizon, where microfacet terms divide by the cosine. */
@@ -37,7 +40,8 @@ typedef struct surface {
 /* x, y: the samples, SD_SUBPIXEL-ths of a pixel from the image's centre. Barycentrics come from the unclipped corners relative to
  * each sample's ray (the 2-D homogeneous form), so that no clipping or snapping enters; samples that snapping has put a little
  * outside are moved back to the edge. */
-static surface surface_at(global const uint* corner, global const float* camera, global const float* normals, sd_frame frame,
+static surface surface_at(global const uint* corner, global const float* camera, global const float* normals,
+                          global const float* coordinates, sd_frame frame,
                           vfloat x, vfloat y) {
     const global float* p0 = camera + 3 * (size_t)corner[0];
     const global float* p1 = camera + 3 * (size_t)corner[1];
@@ -72,6 +76,13 @@ static surface surface_at(global const uint* corner, global const float* camera,
     n.x = fma(b2, (vfloat)n2[0], fma(b1, (vfloat)n1[0], b0 * n0[0]));
     n.y = fma(b2, (vfloat)n2[1], fma(b1, (vfloat)n1[1], b0 * n0[1]));
     n.z = fma(b2, (vfloat)n2[2], fma(b1, (vfloat)n1[2], b0 * n0[2]));
+#ifdef HAS_TEXTURE
+    const global float* t0 = coordinates + 2 * (size_t)corner[0];
+    const global float* t1 = coordinates + 2 * (size_t)corner[1];
+    const global float* t2 = coordinates + 2 * (size_t)corner[2];
+    s.u = fma(b2, (vfloat)t2[0], fma(b1, (vfloat)t1[0], b0 * t0[0]));
+    s.v = fma(b2, (vfloat)t2[1], fma(b1, (vfloat)t1[1], b0 * t0[1]));
+#endif
     if (frame.orthographic) {
         s.view.x = 0.0f, s.view.y = 0.0f, s.view.z = 1.0f;
     } else {

@@ -6,11 +6,13 @@
 #ifdef __OPENCL_VERSION__
 typedef int sd_int;
 typedef uint sd_uint;
+typedef ulong sd_ulong;
 typedef double sd_double;
 #else
 #include <cstdint>
 typedef std::int32_t sd_int;
 typedef std::uint32_t sd_uint;
+typedef std::uint64_t sd_ulong;
 typedef double sd_double;
 #endif
 
@@ -116,7 +118,19 @@ typedef struct sd_lobe {
     float multiple;      /* factor of missing(view) missing(light), 1/sr; ROUGH: 1 / (1 - mean albedo) */
     float alpha;         /* FACETS: GGX width, roughness squared, 0 a mirror; ROUGH: B / A of Oren and Nayar */
     float mean_through;  /* COATED: cosine-weighted mean of what is let through; ROUGH: A */
+    sd_uint texture;     /* DIFFUSE, COATED: 1 + number of the texture that is the reflectance; 0: none */
+    sd_uint pad_;
 } sd_lobe;
+
+/* A spectral texture: texels[first + (row * width + column) * bands + band], row 0 on top. The lobe has a term for each of its
+ * bands: terms run [band][light group]. */
+#define SD_NEAREST 0
+#define SD_BILINEAR 1
+typedef struct sd_texture {
+    sd_ulong first;
+    sd_int width, height, bands;
+    sd_int filter;
+} sd_texture;
 
 typedef struct sd_material {
     sd_uint first_lobe, lobes;
@@ -125,7 +139,7 @@ typedef struct sd_material {
 
 #ifndef __OPENCL_VERSION__
 static_assert(sizeof(sd_frame) == 56 && sizeof(sd_draw) == 144 && sizeof(sd_vertex) == 16 && sizeof(sd_large) == 64 + 0 &&
-                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 32 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 16,
+                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 40 && sizeof(sd_texture) == 24 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 16,
               "layout shared with the kernels");
 #endif
 

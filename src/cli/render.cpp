@@ -7,6 +7,8 @@
 #include "colour/develop.h"
 #include "image/cube.h"
 #include "image/picture.h"
+#include "render/cube_preview.h"
+#include "render/passes.h"
 #include "render/renderer.h"
 #include "spectrum/library.h"
 
@@ -104,6 +106,10 @@ CubeInfo cubeInfo(const RenderArguments& arguments, const Scene& scene, const Pl
     info.height = plan.view.height;
     info.wavelengths = plan.wavelengths;
     info.projectionStated = true;
+    info.kind = plan.as == PassKind::reflectance     ? CubeKind::reflectance
+                : plan.as == PassKind::transmittance ? CubeKind::transmittance
+                : plan.as == PassKind::irradiance    ? CubeKind::irradiance
+                                                     : CubeKind::radiance;
     info.attributes = {{"software", "Spectrad " SPECTRAD_VERSION},
                        {"scene", scene.file},
                        {"sceneSha256", scene.sha256},
@@ -232,6 +238,12 @@ void printSummary(const Output& output, const Plan& plan, const Seconds& seconds
         seconds.render, seconds.write));
 }
 
+const Pass* passNamed(const Scene& scene, const std::string& name) {
+    for (const Pass& pass : scene.passes)
+        if (pass.name == name) return &pass;
+    return nullptr;  // a plan names only passes of its scene
+}
+
 ExitCode render(const RenderArguments& arguments) {
     Laps clock;
     Seconds seconds;
@@ -248,29 +260,31 @@ ExitCode render(const RenderArguments& arguments) {
     const Scene scene =
         loadScene(arguments.scene.file, library, loadOptions(arguments.scene), console.notes());
     seconds.load = clock.lap();
-    const Plan plan = makePlan(scene, settings, library, console.notes());
-    seconds.plan = clock.lap();
     if (!device) device = Device::open(std::nullopt);
+    PassTextures passes(scene, library, *device, settings, console.notes());
+    const Plan plan = makePlan(scene, settings, library, passes, console.notes());
+    seconds.plan = clock.lap();
     const CubeInfo info = cubeInfo(arguments, scene, plan, *device);
     const std::unique_ptr<CubeWriter> writer = openWriter(output, info, console.notes());
     console.printNotes();
-    Renderer renderer(*device, plan);
-
     Preview preview(!output.preview.empty(), info.width, info.height);
-    {
+    const auto deliver = [&](int firstRow, int rows, const float* bands, const float* linear) {
+        const Stopwatch waiting;
+        writer->write(rows, bands, linear);
+        preview.add(firstRow, rows, linear);
+        seconds.write += waiting.seconds();
+    };
+    if (plan.as == PassKind::radiance) {
+        Renderer renderer(*device, plan);
         ProgressBar bar("rendering", arguments.quiet);
-        renderer.render(
-            [&](int firstRow, int rows, const float* bands, const float* linear) {
-                const Stopwatch waiting;
-                writer->write(rows, bands, linear);
-                preview.add(firstRow, rows, linear);
-                seconds.write += waiting.seconds();
-            },
-            [&](double share) { bar.show(share); });
+        renderer.render(deliver, [&](double share) { bar.show(share); });
+        seconds.build = renderer.times().build;
+        seconds.render = renderer.times().render - seconds.write;  // the renderer waits while strips are taken from it
+    } else {
+        const Cube cube = passes.render(*passNamed(scene, plan.passName));
+        seconds.render = clock.lap();
+        deliver(0, info.height, cube.values.data(), previewOf(cube, library).data());
     }
-    seconds.build = renderer.times().build;
-    seconds.render =
-        renderer.times().render - seconds.write;  // the renderer waits while strips are taken from it
     const Stopwatch finishing;
     sayLosses(writer->finish(), console.notes());
     preview.write(output.preview, {plan.whiteName, plan.white, false});

@@ -91,9 +91,32 @@ bool showsSurroundings(const Scene& scene) {
     return false;
 }
 
+bool isPower(const Emitter& emitter) {
+    return emitter.amount && (emitter.amount->unit == AmountUnit::lumen || emitter.amount->unit == AmountUnit::watt);
+}
+
+/// The same amount of equal-energy light. A radiometric amount, and a spectrum that counts as it stands, are spread evenly over
+/// the range that the spectrum has.
+Emitter withConstantSpectrum(const Emitter& emitter) {
+    Emitter e = emitter;
+    const Curve& curve = emitter.spectrum.curve();
+    constexpr std::pair<double, double> visible{360, 830};  // nm; where neither spectrum nor amount names a range
+    const auto range = emitter.amount && emitter.amount->over ? *emitter.amount->over : curve.range().value_or(visible);
+    const double from = range.first, to = std::max(range.second, range.first + 1);  // a line has no width to spread over
+    if (!emitter.amount) {
+        const std::array<const Curve*, 1> product{&curve};
+        e.scale = emitter.scale * integrate(product, from, to) / (to - from);
+    } else if (!isPhotometric(emitter.amount->unit)) {
+        e.amount->over = {from, to};
+    }
+    e.spectrum.curves = {Curve::constant(1)};
+    e.spectrum.text = "constant:1";
+    return e;
+}
+
 }  // namespace
 
-double absoluteFactor(const Emitter& emitter, const Detector& observer, double powerToOwnUnit) {
+double absoluteFactor(const Emitter& emitter, const Detector& observer) {
     if (!emitter.amount) return emitter.scale;
     const Amount& amount = *emitter.amount;
     if (amount.value == 0) return 0;
@@ -102,14 +125,15 @@ double absoluteFactor(const Emitter& emitter, const Detector& observer, double p
         throw InputError(emitter.where, "spectrum '" + emitter.spectrum.text + "' has no " +
                                             (isPhotometric(amount.unit) ? "light that is seen" : "power") +
                                             ", so it cannot be given that amount");
-    const bool power = amount.unit == AmountUnit::lumen || amount.unit == AmountUnit::watt;
-    return amount.value / total * (power ? powerToOwnUnit : 1);
+    return amount.value / total;
 }
 
 std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view, const Detector& observer,
-                                    std::vector<sd_light>& lights) {
+                                    std::vector<sd_light>& lights, bool equalEnergy) {
     std::vector<LightGroup> groups;
-    const auto add = [&](const Emitter& emitter, double factor, sd_light l) {
+    const auto add = [&](const Emitter& given, double unitFactor, sd_light l) {
+        const Emitter emitter = equalEnergy ? withConstantSpectrum(given) : given;
+        const double factor = unitFactor * absoluteFactor(emitter, observer);
         size_t group = 0;
         while (group < groups.size() && groups[group].text != emitter.spectrum.text) ++group;
         if (group == groups.size()) groups.push_back({emitter.spectrum.curve(), 0, emitter.spectrum.text});
@@ -122,16 +146,16 @@ std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, c
     bool ambient = false;
     for (const Placed& place : flat.lights) {
         const Light& light = scene.lights[place.index];
-        double factor = absoluteFactor(light.emitter, observer, powerToIntensity(light));
+        double factor = isPower(light.emitter) ? powerToIntensity(light) : 1;
         // Uniform radiance L from everywhere arrives as irradiance π L.
         if (light.type == LightType::ambient) factor *= std::numbers::pi;
         ambient = ambient || light.type == LightType::ambient;
         add(light.emitter, factor, placed(light, place.toWorld, view));
     }
-    if (scene.background && !ambient && showsSurroundings(scene)) {
+    if (scene.background && !ambient && !equalEnergy && showsSurroundings(scene)) {
         sd_light surroundings{};
         surroundings.type = SD_LIGHT_SURROUNDINGS;
-        add(*scene.background, absoluteFactor(*scene.background, observer) * std::numbers::pi, surroundings);
+        add(*scene.background, std::numbers::pi, surroundings);
     }
     return groups;
 }

@@ -17,14 +17,16 @@ struct LightGroup {
     std::string text;   ///< the spectrum as the user named it
 };
 
-/// Factor that makes the emitter's spectrum absolute in its own unit per nm (W/sr, W·m⁻² or W·m⁻²·sr⁻¹): amount ÷ the
-/// spectrum's integral. `powerToOwnUnit`: 1/(4π) for a point light whose amount is a power, and so on; 1 where it is none.
-/// Throws InputError where the integral is zero, or does not exist (a constant without a range).
-[[nodiscard]] double absoluteFactor(const Emitter& emitter, const Detector& observer, double powerToOwnUnit = 1);
+/// Factor that makes the emitter's spectrum absolute, in the amount's own unit per nm: amount ÷ the spectrum's integral (a light's
+/// power is still to be divided by its solid angle). Throws InputError where the integral is zero, or does not exist (a constant
+/// without a range).
+[[nodiscard]] double absoluteFactor(const Emitter& emitter, const Detector& observer);
 
 /// Places the scene's lights for a view and groups them. Lights of no power are kept: they cost little and change nothing. Where
-/// no ambient light is, the background comes last, for mirrors to show.
+/// no ambient light is, the background comes last, for mirrors to show. `equalEnergy`: every light has a constant spectrum of
+/// the same amount instead of its own.
 [[nodiscard]] std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view,
-                                                  const Detector& observer, std::vector<sd_light>& lights);
+                                                  const Detector& observer, std::vector<sd_light>& lights,
+                                                  bool equalEnergy = false);
 
 }  // namespace spectrad

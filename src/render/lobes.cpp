@@ -106,6 +106,36 @@ void TermBuilder::addCoatedBase(const Material& material, const Curve& weight, c
     endLobe(lobe);
 }
 
+std::uint32_t TermBuilder::addTexture(const Material& material, std::vector<double>& nm) {
+    SpectralTexture texture = textures_.load(*material.diffuse->texture);
+    sd_texture t{};
+    t.first = world_.texels.size();
+    t.width = texture.width;
+    t.height = texture.height;
+    t.bands = static_cast<sd_int>(texture.nm.size());
+    t.filter = texture.nearest ? SD_NEAREST : SD_BILINEAR;
+    world_.texels.insert(world_.texels.end(), texture.texels.begin(), texture.texels.end());
+    world_.textures.push_back(t);
+    nm = std::move(texture.nm);
+    return static_cast<std::uint32_t>(world_.textures.size());
+}
+
+// With texels linear between their wavelengths, each of these is a term: light × hat of that wavelength, exact for any lamp.
+void TermBuilder::addTextured(const Material& material) {
+    if (only_ == Only::fluorescence) return;
+    std::vector<double> nm;
+    sd_lobe lobe = beginLobe(SD_LOBE_DIFFUSE);
+    lobe.texture = addTexture(material, nm);
+    for (size_t t = 0; t < nm.size(); ++t) {
+        std::vector<double> at, value;
+        if (t > 0) at.push_back(nm[t - 1]), value.push_back(0);
+        at.push_back(nm[t]), value.push_back(1);
+        if (t + 1 < nm.size()) at.push_back(nm[t + 1]), value.push_back(0);
+        addGroupTerms(Curve::table(at, value, Outside::hold), inversePi);
+    }
+    endLobe(lobe);
+}
+
 void TermBuilder::addRough(const Material& material, const Curve& base) {
     const OrenNayar model = orenNayar(material.diffuse->roughnessDegrees);
     sd_lobe lobe = beginLobe(SD_LOBE_ROUGH);
@@ -200,12 +230,15 @@ void TermBuilder::addConductor(const Material& material) {
 
 std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) {
     const auto refuse = [&](const char* what) { throw InputError(material.where, "material '" + material.name + "': " + what); };
-    if (material.diffuse && material.diffuse->texture) refuse("texture= is not there yet");
+    const bool textured = material.diffuse && material.diffuse->texture;
+    if (textured && (material.gloss || material.specular)) refuse("texture= under a coat is not there yet");
+    if (textured && !material.fluorescence.empty()) refuse("texture= beside <fluorescence> is not there yet");
     if (material.conductor && (material.diffuse || material.gloss || material.specular || !material.fluorescence.empty()))
         refuse("a <conductor> is opaque and bare: it goes with no <diffuse>, <gloss>, <specular> or <fluorescence>");
     if (material.gloss && material.specular) refuse("<gloss> and <specular> both describe the surface: give one of them");
     if (material.diffuse && material.diffuse->roughnessDegrees > 0 && (material.gloss || material.specular || !material.fluorescence.empty()))
         refuse("roughness= of <diffuse> goes with no coat and no fluorescence");
+    if (textured && material.diffuse->roughnessDegrees > 0) refuse("roughness= of <diffuse> beside texture= is not there yet");
 
     const std::uint32_t number = beginMaterial();
     if (material.emission && only_ == Only::everything) {
@@ -214,7 +247,9 @@ std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) 
         endLobe(lobe);
     }
     if (groups_.empty()) return number;
-    if (material.conductor)
+    if (textured)
+        addTextured(material);
+    else if (material.conductor)
         addConductor(material);
     else if (material.gloss)
         addGloss(material);

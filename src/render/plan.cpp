@@ -61,8 +61,6 @@ Choice choose(const Scene& scene, const RenderSettings& settings) {
         throw InputError(scene.file + ": the scene has no camera");
     }
     choice.cameraIndex = static_cast<Index>(choice.camera - scene.cameras.data());
-    if (choice.pass && choice.pass->as != PassKind::radiance)
-        throw InputError(choice.pass->where, "pass '" + choice.pass->name + "': only as=\"radiance\" is there yet");
     return choice;
 }
 
@@ -96,12 +94,35 @@ std::vector<const Material*> materialsWorn(const Scene& scene, const FlatScene& 
     return materials;
 }
 
+Material substituted(const Material& material, Substitute substitute) {
+    Material worn = material;
+    if (substitute == Substitute::none) return worn;
+    worn.emission.reset();
+    if (substitute == Substitute::whiteDiffuser) {
+        worn = {};
+        worn.name = material.name;
+        worn.where = material.where;
+        worn.diffuse.emplace();
+        worn.diffuse->reflectance.emplace();
+        worn.diffuse->reflectance->curves = {Curve::constant(1)};
+    } else if (substitute == Substitute::coverage) {
+        worn = {};
+        worn.name = material.name;
+        worn.emission.emplace();
+        worn.emission->spectrum.curves = {Curve::constant(1)};
+    } else if (!worn.fluorescence.empty()) {
+        throw InputError(material.where, "material '" + material.name + "' is fluorescent: what it sends out depends on the lamp, so no reflectance can carry it (as=\"radiance\" can)");
+    }
+    return worn;
+}
+
 std::vector<std::string> featuresOf(const std::vector<const Material*>& materials, const World& world, bool background) {
     std::set<std::string> features;
     for (const Material* m : materials) {
         if (m->diffuse) features.insert("diffuse");
         if (m->gloss) features.insert("gloss");
         if (m->emission) features.insert("emission");
+        if (m->diffuse && m->diffuse->texture) features.insert("texture");
         if (m->specular) features.insert("specular");
         if (m->conductor) features.insert("conductor");
         if (!m->fluorescence.empty()) features.insert("fluorescence");
@@ -127,14 +148,21 @@ std::vector<std::string> definesOf(const World& world, int samples) {
         if (lobe.type == SD_LOBE_COATED) defines.insert("HAS_COATED");
         if (lobe.type == SD_LOBE_FACETS) defines.insert("HAS_FACETS");
     }
+    if (!world.textures.empty()) defines.insert("HAS_TEXTURE");
     return {defines.begin(), defines.end()};
 }
 
 }  // namespace
 
 Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library, Notes& notes) {
+    TextureLoader textures(scene, library, notes);
+    return makePlan(scene, settings, library, textures, notes);
+}
+
+Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library, TextureLoader& textures, Notes& notes) {
     const Choice choice = choose(scene, settings);
     Plan plan;
+    plan.as = choice.pass ? choice.pass->as : PassKind::radiance;
     plan.cameraName = choice.camera->name;
     plan.passName = choice.pass ? choice.pass->name : "";
     plan.stripBytes = settings.stripBytes;
@@ -155,8 +183,9 @@ Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library&
     plan.view = makeView(*choice.camera, placeOf(scene, flat, choice.cameraIndex), size.first, size.second);
 
     const Detector observer = standardObserver(library);
-    std::vector<LightGroup> groups = groupLights(scene, flat, plan.view, observer, plan.world.lights);
-    checkRange(plan.wavelengths, groups, observer, notes);
+    std::vector<LightGroup> groups = groupLights(scene, flat, plan.view, observer, plan.world.lights,
+                                                 settings.substitute != Substitute::none);
+    if (settings.substitute == Substitute::none) checkRange(plan.wavelengths, groups, observer, notes);
 
     std::vector<std::uint32_t> number;
     const std::vector<const Material*> materials = materialsWorn(scene, flat, number);
@@ -174,11 +203,14 @@ Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library&
     for (double& value : plan.white) value /= y;
 
     plan.groups = static_cast<std::uint32_t>(groups.size());
-    TermBuilder builder(plan.wavelengths, observer, std::move(groups), settings.only, plan.world, plan.terms, notes);
-    const Emitter* background = scene.background ? &*scene.background : nullptr;
+    TermBuilder builder(plan.wavelengths, observer, std::move(groups), settings.only, textures, plan.world, plan.terms, notes);
+    const bool asGiven = settings.substitute == Substitute::none;
+    const Emitter* background = asGiven && scene.background ? &*scene.background : nullptr;
     builder.addBackground(background, background ? absoluteFactor(*background, observer) : 0);
-    for (const Material* material : materials)
-        builder.add(*material, material->emission ? absoluteFactor(*material->emission, observer) : 0);
+    for (const Material* material : materials) {
+        const Material worn = substituted(*material, settings.substitute);
+        builder.add(worn, worn.emission ? absoluteFactor(*worn.emission, observer) : 0);
+    }
     addGeometry(plan.world, flat, plan.view, number);
 
     plan.features = featuresOf(materials, plan.world, background != nullptr);

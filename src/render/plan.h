@@ -14,6 +14,7 @@ namespace spectrad {
 class Library;
 
 struct Plan {
+    PassKind as = PassKind::radiance;
     std::string cameraName, passName;
     View view;
     World world;
@@ -34,5 +35,8 @@ struct Plan {
 
 /// Throws InputError for what the scene asks and this version cannot do ("not yet"), and for limits exceeded.
 [[nodiscard]] Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library, Notes& notes);
+/// The same with textures from `textures`, which can render passes.
+[[nodiscard]] Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library, TextureLoader& textures,
+                            Notes& notes);
 
 }  // namespace spectrad

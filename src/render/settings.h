@@ -15,6 +15,14 @@ namespace spectrad {
 /// Which part of what comes from surfaces is wanted (render --only).
 enum class Only { everything, reflection, fluorescence };
 
+/// What a pass that is not radiance is made of (docs/format.md, "Passes as reflectance").
+enum class Substitute {
+    none,
+    equalEnergy,   ///< every light keeps place and amount but has a constant spectrum; nothing glows by itself
+    whiteDiffuser,  ///< that, and every surface a perfect white diffuser
+    coverage        ///< every surface glows with radiance 1, whatever the light
+};
+
 struct RenderSettings {
     std::optional<Wavelengths> wavelengths;       ///< instead of the scene's
     std::optional<Projection> projection;         ///< instead of the wavelengths' own
@@ -22,6 +30,7 @@ struct RenderSettings {
     std::optional<int> samples;                   ///< per pixel, 1…64; 16 if nobody says
     std::string camera, pass;                     ///< names; empty: the scene's choice (docs/format.md, "Passes")
     Only only = Only::everything;
+    Substitute substitute = Substitute::none;
     std::uint64_t stripBytes = 0;                 ///< device memory a strip may take; 0: chosen from the device
 };
 

@@ -19,6 +19,19 @@ std::vector<std::string> geometryDefines(const Plan& plan, const Device& device)
     return withDevice(defines, device);
 }
 
+/// For each term the first band and the end of the bands in which it is not zero.
+std::vector<std::uint32_t> spansOf(const std::vector<float>& spectra, size_t bands) {
+    std::vector<std::uint32_t> spans;
+    for (size_t from = 0; from < spectra.size(); from += bands) {
+        std::uint32_t first = 0, end = static_cast<std::uint32_t>(bands);
+        while (end > first && spectra[from + end - 1] == 0) --end;
+        while (first < end && spectra[from + first] == 0) ++first;
+        spans.push_back(first);
+        spans.push_back(end);
+    }
+    return spans;
+}
+
 sd_frame makeFrame(const Plan& plan, const LanePattern& lanes) {
     sd_frame frame{};
     frame.pixels_per_slope = plan.view.pixelsPerSlope;
@@ -80,6 +93,11 @@ void Stages::uploadWorld() {
     up(lobes_, world.lobes, "the materials");
     up(tables_, world.tables, "the materials' tables");
     up(lights_, world.lights, "the lights");
+    up(coordinates_, world.uv, "the scene's texture coordinates");
+    up(textures_, world.textures, "the textures");
+    up(texels_, world.texels, "the textures");
+    up(spans_, spansOf(plan_.terms.spectra, plan_.terms.bands), "the terms' spectra");
+    up(previewSpans_, spansOf(plan_.terms.preview, 3), "the terms' colours");
     up(spectra_, plan_.terms.spectra, "the terms' spectra");
     up(previewSpectra_, plan_.terms.preview, "the terms' colours");
     camera_.reserve(device_, size_t{3} * vertices_, "the transformed vertices");
@@ -237,6 +255,7 @@ bool Stages::light(int firstRow, int rows) {
         .set("index", index_.buffer())
         .set("camera", camera_.buffer())
         .set("camera_normal", cameraNormal_.buffer())
+        .set("coordinates", coordinates_.buffer())
         .set("triangle_material", triangleMaterial_.buffer())
         .set("materials", materials_.buffer())
         .set("lobes", lobes_.buffer())
@@ -244,6 +263,8 @@ bool Stages::light(int firstRow, int rows) {
         .set("lights", lights_.buffer())
         .set("light_count", static_cast<cl_uint>(plan_.world.lights.size()))
         .set("groups", static_cast<cl_uint>(plan_.groups))
+        .set("textures", textures_.buffer())
+        .set("texels", texels_.buffer())
         .set("frame", frame_)
         .set("pattern_x", laneX_.buffer())
         .set("pattern_y", laneY_.buffer())
@@ -262,12 +283,14 @@ void Stages::expand(int from, int rows, DeviceArray<float>& cube, DeviceArray<fl
     const auto rowBlocks = static_cast<std::uint32_t>(frame_.pitch / SD_BLOCK);
     const std::uint32_t blocks = rowBlocks * static_cast<std::uint32_t>(rows);
     const bool scalar = device_.body().vectorWidth() == 1;
-    const auto run = [&](const DeviceArray<float>& spectra, size_t bands, DeviceArray<float>& out, const char* what) {
+    const auto run = [&](const DeviceArray<float>& spectra, const DeviceArray<std::uint32_t>& spans, size_t bands,
+                         DeviceArray<float>& out, const char* what) {
         out.reserve(device_, lines * bands * pitch, what);
         expand_.set("g", image_.g.buffer())
             .set("block_first", image_.first.buffer())
             .set("block_term", image_.term.buffer())
             .set("spectra", spectra.buffer())
+            .set("spans", spans.buffer())
             .set("bands", static_cast<cl_uint>(bands))
             .set("frame", frame_)
             .set("first_block", static_cast<cl_uint>(from) * rowBlocks)
@@ -275,8 +298,8 @@ void Stages::expand(int from, int rows, DeviceArray<float>& cube, DeviceArray<fl
             .set("out", out.buffer())
             .run(size_t{blocks} * (scalar ? SD_BLOCK : 1), scalar ? SD_BLOCK : 1);
     };
-    run(spectra_, plan_.terms.bands, cube, "a strip of the image");
-    run(previewSpectra_, 3, preview, "a strip of the preview");
+    run(spectra_, spans_, plan_.terms.bands, cube, "a strip of the image");
+    run(previewSpectra_, previewSpans_, 3, preview, "a strip of the preview");
 }
 
 MappedFloats::MappedFloats(const Device& device, const cl::Buffer& buffer, size_t count) : device_(device), buffer_(buffer) {

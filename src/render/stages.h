@@ -50,7 +50,7 @@ class Stages {
     Kernel transform_, clear_, small_, setup_, clip_, count_, scan_, deal_, tiles_;
     Kernel find_, scanTerms_, list_, light_, expand_;
 
-    DeviceArray<float> position_, normal_, camera_, cameraNormal_, spectra_, previewSpectra_;
+    DeviceArray<float> position_, normal_, camera_, cameraNormal_, coordinates_, texels_, spectra_, previewSpectra_;
     DeviceArray<std::uint32_t> vertexDraw_, index_, triangleMaterial_;
     DeviceArray<sd_draw> draws_;
     DeviceArray<sd_vertex> screen_;
@@ -58,6 +58,8 @@ class Stages {
     DeviceArray<sd_lobe> lobes_;
     DeviceArray<sd_piece> tables_;
     DeviceArray<sd_light> lights_;
+    DeviceArray<sd_texture> textures_;
+    DeviceArray<std::uint32_t> spans_, previewSpans_;
     DeviceArray<std::int32_t> slotX_, slotY_, laneX_, laneY_, used_;
 
     DeviceArray<std::uint64_t> keys_;

@@ -13,8 +13,8 @@
 namespace spectrad {
 
 TermBuilder::TermBuilder(const Wavelengths& grid, const Detector& observer, std::vector<LightGroup> groups, Only only,
-                         World& world, TermTable& terms, Notes& notes)
-    : grid_(grid), observer_(observer), groups_(std::move(groups)), only_(only), world_(world), terms_(terms), notes_(notes) {
+                         TextureLoader& textures, World& world, TermTable& terms, Notes& notes)
+    : grid_(grid), observer_(observer), groups_(std::move(groups)), only_(only), textures_(textures), world_(world), terms_(terms), notes_(notes) {
     terms_.bands = grid.size();
 }
 

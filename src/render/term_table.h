@@ -4,6 +4,7 @@
 #include "render/angle_table.h"
 #include "render/light_groups.h"
 #include "render/settings.h"
+#include "render/texture.h"
 #include "render/world.h"
 #include "scene/scene.h"
 #include "spectrum/wavelengths.h"
@@ -33,8 +34,8 @@ struct Summand {
 /// Appends materials' lobes to a world and the lobes' terms to a table. The order of terms is [lobe][function][light group].
 class TermBuilder {
   public:
-    TermBuilder(const Wavelengths& grid, const Detector& observer, std::vector<LightGroup> groups, Only only, World& world,
-                TermTable& terms, Notes& notes);
+    TermBuilder(const Wavelengths& grid, const Detector& observer, std::vector<LightGroup> groups, Only only, TextureLoader& textures,
+                World& world, TermTable& terms, Notes& notes);
 
     /// Material 0 of the world; without a background it has no terms.
     void addBackground(const Emitter* background, double factor);
@@ -54,11 +55,14 @@ class TermBuilder {
     void endLobe(const sd_lobe& lobe);
     std::uint32_t addTables(const std::vector<std::vector<sd_piece>>& tables);
 
+    void addTextured(const Material& material);
     void addDiffuse(const Material& material);
     void addRough(const Material& material, const Curve& base);
     void addGloss(const Material& material);
     void addSpecular(const Material& material);
     void addConductor(const Material& material);
+    /// The material's texture in the world, or 0; its wavelengths in `nm`.
+    std::uint32_t addTexture(const Material& material, std::vector<double>& nm);
     /// Diffuse base under a coat, its terms weighted by `weight` (one factor of the spectrum).
     void addCoatedBase(const Material& material, const Curve& weight, const AngleFunction& through, double meanThrough, double inside);
     void addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra, double alpha);
@@ -67,6 +71,7 @@ class TermBuilder {
     const Detector& observer_;
     std::vector<LightGroup> groups_;
     Only only_;
+    TextureLoader& textures_;
     World& world_;
     TermTable& terms_;
     Notes& notes_;

@@ -80,6 +80,11 @@ void addMesh(World& world, const Mesh& mesh, const Affine& toWorld, const View& 
     }
     for (const auto& p : source->position) world.position.insert(world.position.end(), p.begin(), p.end());
     for (const auto& n : source->normal) world.normal.insert(world.normal.end(), n.begin(), n.end());
+    if (!world.textures.empty()) {
+        // A mesh without coordinates shows the texture's lower left corner everywhere.
+        if (source->uv.empty()) world.uv.insert(world.uv.end(), 2 * source->position.size(), 0.0f);
+        for (const auto& t : source->uv) world.uv.insert(world.uv.end(), t.begin(), t.end());
+    }
     world.vertexDraw.insert(world.vertexDraw.end(), source->position.size(), draw);
     world.index.reserve(world.index.size() + source->index.size());
     for (std::uint32_t i : source->index) world.index.push_back(static_cast<std::uint32_t>(first) + i);

@@ -21,6 +21,7 @@ struct View {
 
 struct World {
     std::vector<float> position, normal;     ///< three a vertex, in the object space of the vertex's draw
+    std::vector<float> uv;                   ///< two a vertex; empty if no material has a texture
     std::vector<std::uint32_t> vertexDraw;   ///< one a vertex
     std::vector<sd_draw> draws;
     std::vector<std::uint32_t> index;             ///< three a triangle
@@ -29,10 +30,13 @@ struct World {
     std::vector<sd_lobe> lobes;
     std::vector<sd_piece> tables;
     std::vector<sd_light> lights;
+    std::vector<sd_texture> textures;
+    std::vector<float> texels;
 };
 
 /// Adds the triangles of all objects: shapes tessellated to a tenth of a pixel as this view sees them, meshes as they are.
 /// Scene material m becomes world material materialNumber[m]. Throws InputError beyond 2^32 − 2 triangles or vertices.
+/// Texture coordinates are kept only where a texture wants them.
 void addGeometry(World& world, const FlatScene& scene, const View& view, const std::vector<std::uint32_t>& materialNumber);
 
 }  // namespace spectrad

@@ -48,7 +48,7 @@ std::vector<ElementRule> makeGrammar() {
         rule("wavelengths", "from to step projection", "#text"),
         rule("spectrum", "name! quantity relative value file column", "#text"),
         rule("material", "name!", "diffuse1 gloss1 specular1 conductor1 fluorescence emission1"),
-        rule("diffuse", "reflectance texture roughness"),
+        rule("diffuse", "reflectance texture filter roughness"),
         rule("gloss", "ior! roughness"),
         rule("specular", "reflectance! roughness"),
         rule("conductor", "ior! roughness fresnel"),

@@ -14,6 +14,7 @@ TextureUse readTexture(Reading& reading, const Element& element) {
     use.where = element.where("texture");
     use.source = element.text("texture");
     if (!startsWith(use.source, "pass:")) use.source = reading.file(element, "texture").string();
+    use.nearest = element.choice<bool>("filter", {{"bilinear", false}, {"nearest", true}}, false);
     return use;
 }
 
@@ -25,6 +26,7 @@ Diffuse readDiffuse(Reading& reading, const Element& element) {
     if (element.has("texture")) {
         diffuse.texture = readTexture(reading, element);
     } else {
+        element.refuse("filter", "stands only beside 'texture'");
         diffuse.reflectance = reading.spectrum(element, "reflectance", Role::reflectance);
     }
     diffuse.roughnessDegrees = element.number("roughness", 0, {0, 90, true, true});

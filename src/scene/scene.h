@@ -55,7 +55,8 @@ struct Emitter {
 // -----------------------------------------------------------------------------------------------------
 
 struct TextureUse {
-    std::string source;  ///< file name, or "pass:NAME"
+    std::string source;    ///< file name, or "pass:NAME"
+    bool nearest = false;  ///< filter="nearest": no interpolation between texels
     SourceLocation where;
 };
 

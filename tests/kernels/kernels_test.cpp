@@ -132,10 +132,17 @@ TEST_CASE("structs have the same layout on host and device") {
     DeviceArray<std::uint32_t> out;
     out.reserve(device, 16, "the probe");
     probe.set("out", out.buffer()).run(1);
-    const auto sizes = read<std::uint32_t>(device, out.buffer(), 12);
+    const auto sizes = read<std::uint32_t>(device, out.buffer(), 13);
     const std::vector<std::uint32_t> expected{
         sizeof(sd_frame),    offsetof(sd_frame, tiles_y), sizeof(sd_draw),     offsetof(sd_draw, normal),
         sizeof(sd_vertex),   sizeof(sd_large),            offsetof(sd_large, key), sizeof(sd_light),
-        offsetof(sd_light, group), sizeof(sd_lobe),       sizeof(sd_piece),   sizeof(sd_material)};
+        offsetof(sd_light, group), sizeof(sd_lobe),       sizeof(sd_piece),   sizeof(sd_material), sizeof(sd_texture)};
     CHECK(sizes == expected);
+}
+
+// The least that passes through every stage: what a simulator that checks each access can do in a minute (tests/oclgrind).
+TEST_CASE("a tiny image agrees with the scalar twins", "[oclgrind]") {
+    const Device device = Device::open(std::nullopt);
+    for (int samples : {1, 4}) compare(device, randomPlan(static_cast<unsigned>(samples), samples, samples == 1, 6, 4));
+    compare(device, adversarialPlan(1, false));
 }

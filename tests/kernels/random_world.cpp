@@ -66,6 +66,20 @@ void addMaterials(Plan& plan) {
     begin(), addLobe(plan, SD_LOBE_ROUGH, term, 0.4), end(term);
     term = 0;
     begin(), addLobe(plan, SD_LOBE_FACETS, term, 0.09, 3, true), end(term);
+    // Lambert and coat over textures, filtered and not.
+    for (const int filter : {SD_BILINEAR, SD_NEAREST}) {
+        sd_texture t{};
+        t.first = world.texels.size();
+        t.width = 5, t.height = 3, t.bands = 4;
+        t.filter = filter;
+        for (int i = 0; i < t.width * t.height * t.bands; ++i) world.texels.push_back(static_cast<float>((i * 37 % 101) / 100.0));
+        world.textures.push_back(t);
+        term = 0;
+        begin(), addLobe(plan, filter == SD_NEAREST ? SD_LOBE_COATED : SD_LOBE_DIFFUSE, term, 0);
+        world.lobes.back().texture = static_cast<sd_uint>(world.textures.size());
+        term += 3 * plan.groups;
+        end(term);
+    }
     plan.terms.bands = 7;
     Random random(99);
     for (std::uint32_t t = 0; t < terms; ++t) {
@@ -101,7 +115,7 @@ Plan emptyPlan(int samples, bool orthographic, int width, int height) {
     plan.view.height = height;
     plan.view.pixelsPerSlope = orthographic ? height / 4.0 : height * 0.9;
     plan.wavelengths.nm = {400, 450, 500, 550, 600, 650, 700};
-    plan.defines = {"HAS_COATED", "HAS_FACETS", "HAS_ROUGH", "HAS_UNIFORM", "HAS_POINT", "HAS_SPOT", "HAS_DIRECTIONAL", "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
+    plan.defines = {"HAS_COATED", "HAS_FACETS", "HAS_ROUGH", "HAS_TEXTURE", "HAS_UNIFORM", "HAS_POINT", "HAS_SPOT", "HAS_DIRECTIONAL", "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
     sd_draw draw{};
     draw.to_camera[0] = draw.to_camera[5] = draw.to_camera[10] = 1;
     draw.normal[0] = draw.normal[4] = draw.normal[8] = 1;
@@ -116,11 +130,12 @@ void addVertex(World& world, double x, double y, double z, Random& random) {
     for (double v : {x, y, z}) world.position.push_back(static_cast<float>(v));
     for (int i = 0; i < 3; ++i) world.normal.push_back(static_cast<float>(uniform(random, -1, 1)));
     world.vertexDraw.push_back(0);
+    for (int i = 0; i < 2; ++i) world.uv.push_back(static_cast<float>(uniform(random, -0.3, 1.4)));
 }
 
 void addTriangle(World& world, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     for (std::uint32_t i : {a, b, c}) world.index.push_back(i);
-    world.triangleMaterial.push_back(static_cast<std::uint32_t>(1 + world.triangleMaterial.size() % 6));
+    world.triangleMaterial.push_back(static_cast<std::uint32_t>(1 + world.triangleMaterial.size() % 8));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace spectrad {
 
-/// `triangles` of all sizes, six materials (Lambert, coated, mirror-coated, glowing, rough, metal), lights of every type in two groups.
+/// `triangles` of all sizes, eight materials (Lambert, coated, mirror-coated, glowing, rough, metal, two textured), lights of every type in two groups.
 [[nodiscard]] Plan randomPlan(unsigned seed, int samples, bool orthographic, int triangles, int height);
 
 /// Slivers, points, triangles behind and through the eye, far outside, larger than the image by 1e6, sharing edges and corners,

@@ -28,6 +28,7 @@ V unit(V a) {
 struct Surface {
     V position, normal, view;
     float cosView;
+    float u, v;
 };
 
 float mixed(float b0, float v0, float b1, float v1, float b2, float v2) { return std::fma(b2, v2, std::fma(b1, v1, b0 * v0)); }
@@ -66,6 +67,12 @@ Surface surfaceAt(const World& world, const Vertices& vertices, const sd_frame& 
     normal = unit(normal);
     s.normal = scaled(normal, std::copysign(1.0f, seen) * std::copysign(1.0f, along));
     s.cosView = std::fmax(dot(s.normal, s.view), 1e-5f);
+    if (!world.uv.empty()) {
+        std::array<const float*, 3> t{};
+        for (size_t k = 0; k < 3; ++k) t[k] = world.uv.data() + 2 * size_t{world.index[3 * size_t{triangle} + k]};
+        s.u = mixed(b0, t[0][0], b1, t[1][0], b2, t[2][0]);
+        s.v = mixed(b0, t[0][1], b1, t[1][1], b2, t[2][1]);
+    }
     return s;
 }
 
@@ -103,6 +110,21 @@ float arriving(const sd_light& light, V position, V& toLight) {
     return square == 0.0f ? 0.0f : strength;
 }
 
+/// One band of a texture at the surface's coordinates.
+float texel(const World& world, const sd_texture& t, const Surface& s, int band) {
+    const float x = std::clamp(s.u, 0.0f, 1.0f) * static_cast<float>(t.width), y = (1.0f - std::clamp(s.v, 0.0f, 1.0f)) * static_cast<float>(t.height);
+    const auto at = [&](int column, int row) {
+        return world.texels[t.first + (static_cast<size_t>(std::clamp(row, 0, t.height - 1)) * static_cast<size_t>(t.width) +
+                                       static_cast<size_t>(std::clamp(column, 0, t.width - 1))) * static_cast<size_t>(t.bands) + static_cast<size_t>(band)];
+    };
+    if (t.filter == SD_NEAREST) return at(static_cast<int>(x), static_cast<int>(y));
+    const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f), right = (x - 0.5f) - left, down = (y - 0.5f) - top;
+    const int column = static_cast<int>(left), row = static_cast<int>(top);
+    const float a = std::fma(right, at(column + 1, row) - at(column, row), at(column, row));
+    const float b = std::fma(right, at(column + 1, row + 1) - at(column, row + 1), at(column, row + 1));
+    return std::fma(down, b - a, a);
+}
+
 /// Calls add(call, term, g) for everything that lobes and lights add to one sample; `call` orders the additions.
 void shade(const Plan& plan, const sd_material& material, const Surface& s, const std::function<void(size_t, std::uint32_t, float)>& add) {
     const World& world = plan.world;
@@ -117,19 +139,28 @@ void shade(const Plan& plan, const sd_material& material, const Surface& s, cons
         const sd_piece* table = world.tables.data() + lobe.table;
         const Cell viewCell = cellOf(s.cosView);
         const float first = lobe.type == SD_LOBE_DIFFUSE ? 0.0f : lookUp(table, viewCell);
-        constexpr size_t callsALight = 16;
+        constexpr size_t callsALight = 64;
+        const auto paint = [&](size_t base, std::uint32_t term, float g) {
+            if (lobe.texture == 0) {
+                add(base, term, g);
+                return;
+            }
+            const sd_texture& t = world.textures[lobe.texture - 1];
+            for (int band = 0; band < t.bands; ++band)
+                add(base + static_cast<size_t>(band), term + static_cast<std::uint32_t>(band) * groups, g * texel(world, t, s, band));
+        };
         for (const sd_light& light : world.lights) {
             const size_t base = call;
             call += callsALight;
             const std::uint32_t term = lobe.term + light.group;
             if (light.type == SD_LIGHT_AMBIENT || light.type == SD_LIGHT_SURROUNDINGS) {
                 if (light.type == SD_LIGHT_SURROUNDINGS && !(lobe.type == SD_LOBE_FACETS && lobe.alpha == 0)) continue;
-                if (lobe.type == SD_LOBE_DIFFUSE) add(base, term, light.scale);
+                if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, light.scale);
                 if (lobe.type == SD_LOBE_ROUGH) {
                     add(base, term, light.scale * (1.0f - first));
                     add(base + 1, term + groups, light.scale * first);
                 }
-                if (lobe.type == SD_LOBE_COATED) add(base, term, light.scale * first * lobe.mean_through);
+                if (lobe.type == SD_LOBE_COATED) paint(base, term, light.scale * first * lobe.mean_through);
                 if (lobe.type == SD_LOBE_FACETS) {
                     for (std::uint32_t f = 0; f < lobe.functions; ++f)
                         add(base + f, term + f * groups, light.scale * inversePi * lookUp(table + (1 + f) * SD_CELLS, viewCell));
@@ -143,8 +174,8 @@ void shade(const Plan& plan, const sd_material& material, const Surface& s, cons
             const float cosLight = dot(s.normal, toLight);
             if (!(cosLight > 0)) continue;
             const float irradiance = strength * cosLight;
-            if (lobe.type == SD_LOBE_DIFFUSE) add(base, term, irradiance);
-            if (lobe.type == SD_LOBE_COATED) add(base, term, irradiance * (first * lookUp(table, cellOf(cosLight))));
+            if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, irradiance);
+            if (lobe.type == SD_LOBE_COATED) paint(base, term, irradiance * (first * lookUp(table, cellOf(cosLight))));
             if (lobe.type == SD_LOBE_ROUGH) {
                 const float beyond = std::fma(-cosLight, s.cosView, dot(toLight, s.view));
                 const float divisor = beyond > 0 ? std::fmax(cosLight, s.cosView) : 1.0f;
@@ -172,6 +203,13 @@ void shade(const Plan& plan, const sd_material& material, const Surface& s, cons
             }
         }
     }
+}
+
+bool isTextured(const World& world, const sd_material& material, std::uint32_t term) {
+    bool textured = false;
+    for (std::uint32_t l = 0; l < material.lobes; ++l)
+        if (world.lobes[material.first_lobe + l].term <= term) textured = world.lobes[material.first_lobe + l].texture != 0;
+    return textured;
 }
 
 float pairwise(const std::vector<float>& v, size_t from, size_t count) {
@@ -230,8 +268,15 @@ Block light(const Plan& plan, const Vertices& vertices, const sd_frame& frame, c
                 const int sy = row * 256 - frame.height * 128 + lanes.slotY[slot];
                 shade(plan, material, surfaceAt(world, vertices, frame, id, static_cast<float>(sx), static_cast<float>(sy)), add);
             }
-            for (const auto& [call, entry] : adds)
-                block.g[(offset[m] + entry.first) * SD_BLOCK + x] += pairwise(entry.second, 0, group);
+            for (const auto& [call, entry] : adds) {
+                float& sum = block.g[(offset[m] + entry.first) * SD_BLOCK + x];
+                if (!isTextured(world, material, entry.first)) {
+                    sum += pairwise(entry.second, 0, group);
+                    continue;
+                }
+                for (float g : entry.second)
+                    if (g != 0) sum += g;  // a texture's bands are added lane by lane
+            }
         }
     }
     const float inverse = 1.0f / static_cast<float>(frame.samples);

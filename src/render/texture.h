@@ -1,0 +1,51 @@
+// Spectral textures: reflectances, linear between the wavelengths that all texels share.
+#pragma once
+
+#include "image/cube.h"
+#include "scene/scene.h"
+#include "spectrum/library.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace spectrad {
+
+struct SpectralTexture {
+    int width = 0, height = 0;
+    std::vector<double> nm;     ///< ascending
+    bool nearest = false;       ///< no interpolation between texels
+    std::vector<float> texels;  ///< [(row * width + column) * bands + band], row 0 on top
+};
+
+/// A cube of reflectances as a texture: slit averages become the nodal values of the curve that has them, held at or above zero.
+/// Throws InputError for a cube of another kind (only radiance carries fluorescence; only a reflectance takes a lamp).
+[[nodiscard]] SpectralTexture textureFrom(const Cube& cube, const std::string& name, Notes& notes);
+/// An RGB picture (PNG, sRGB), each colour lifted to a smooth reflectance (see lift.h), on wavelengths 380:780:10.
+[[nodiscard]] SpectralTexture textureFromPicture(const std::string& file, const Library& library);
+
+/// Where textures come from: files here, passes by whoever can render them.
+class TextureLoader {
+  public:
+    TextureLoader(const Scene& scene, const Library& library, Notes& notes) : scene_(scene), library_(library), notes_(notes) {}
+    virtual ~TextureLoader() = default;
+    TextureLoader(const TextureLoader&) = delete;
+    TextureLoader& operator=(const TextureLoader&) = delete;
+
+    /// Throws InputError at the use's place.
+    [[nodiscard]] SpectralTexture load(const TextureUse& use);
+
+  protected:
+    /// What a plan needs to know of a pass without rendering it: one black texel on the pass's wavelengths.
+    [[nodiscard]] virtual SpectralTexture loadPass(const Pass& pass, const TextureUse& use);
+    [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] const Library& library() const { return library_; }
+    [[nodiscard]] Notes& notes() { return notes_; }
+
+  private:
+    const Scene& scene_;
+    const Library& library_;
+    Notes& notes_;
+};
+
+}  // namespace spectrad
