@@ -47,7 +47,7 @@ bench: packages build/build.ninja
 
 ##format          clang-format everything in C++
 .PHONY: format
-format: packages-develop
+format: packages-test
 	clang-format -i $(CODE)
 
 ##tidy            clang-tidy on what the build compiles
@@ -84,15 +84,21 @@ $(PROGRAM): build/build.ninja always
 
 # A picture is rendered anew when its scene, a model, a spectrum or the program has changed.
 SPECTRA := $(shell find spectra -name '*.csv')
-RENDER = $(PROGRAM) render $< -o out/$*.exr --preview out/$*.png
+FL11 := --set lamp.spectrum=illuminants/FL11
+EXPOSURE_chess := -0.4
+EXPOSURE_colorchecker := -0.13
+EXPOSURE_colorchecker-FL11 := -0.13
+define RENDER
+$(PROGRAM) render $< -o out/$(1).exr $(2)
+$(PROGRAM) observe out/$(1).exr -o out/$(1).png --exposure $(or $(EXPOSURE_$(1)),0) --quiet
+endef
 
 out/%.exr out/%.png: scenes/%.xml $(PROGRAM) $(SPECTRA) | out
-	$(RENDER)
+	$(call RENDER,$*)
 out/%.exr out/%.png: scenes/models/%.dae $(PROGRAM) $(SPECTRA) | out
-	$(PROGRAM) render $< -o out/$*.exr
-	$(PROGRAM) observe out/$*.exr -o out/$*.png --exposure -0.4
+	$(call RENDER,$*)
 out/%-FL11.exr out/%-FL11.png: scenes/%.xml $(PROGRAM) $(SPECTRA) | out
-	$(PROGRAM) render $< -o out/$*-FL11.exr --preview out/$*-FL11.png --set lamp.spectrum=illuminants/FL11
+	$(call RENDER,$*-FL11,$(FL11))
 out/pavilion.exr out/pavilion.png: scenes/models/pavilion.gltf
 out:
 	mkdir out
