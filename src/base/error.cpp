@@ -23,7 +23,9 @@ void Notes::say(const std::string& message) {
     if (std::find(lines_.begin(), lines_.end(), message) == lines_.end()) lines_.push_back(message);
 }
 
-void Notes::warn(const std::string& message) { say("warning: " + message); }
+void Notes::warn(const std::string& message) {
+    say("warning: " + message);
+}
 
 void Notes::warn(const SourceLocation& where, const std::string& message) {
     const std::string place = where.str();

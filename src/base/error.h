@@ -29,7 +29,8 @@ class Error : public std::runtime_error {
     ExitCode code_;
 };
 
-/// The user's file, scene or number is wrong. One line: "scene.xml:12:5: unknown attribute 'radius' (allowed: …)".
+/// The user's file, scene or number is wrong. One line: "scene.xml:12:5: unknown attribute 'radius' (allowed:
+/// …)".
 class InputError : public Error {
   public:
     explicit InputError(const std::string& message) : Error(ExitCode::input, message) {}

@@ -4,14 +4,13 @@
 
 #include <nettle/sha2.h>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <fstream>
+#include <unistd.h>
 
 namespace spectrad {
 
@@ -57,7 +56,8 @@ void removePendingFiles() noexcept {
 
 PendingFile::PendingFile(fs::path target) : target_(std::move(target)) {
     std::error_code ignored;
-    if (fs::is_directory(target_, ignored)) throw MachineError("cannot write '" + target_.string() + "': it is a folder");
+    if (fs::is_directory(target_, ignored))
+        throw MachineError("cannot write '" + target_.string() + "': it is a folder");
     const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
     static std::atomic<unsigned> counter{0};
     const std::string unique = "." + target_.stem().string() + "." + std::to_string(::getpid()) + "-" +

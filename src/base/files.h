@@ -8,9 +8,9 @@
 
 namespace spectrad {
 
-/// Claims a hidden name beside `target`; commit() moves what was written there onto the target in one step. Unless
-/// committed, the destructor removes it, and what stood at the target stays untouched. A fatal signal removes it too
-/// (see removePendingFiles).
+/// Claims a hidden name beside `target`; commit() moves what was written there onto the target in one step.
+/// Unless committed, the destructor removes it, and what stood at the target stays untouched. A fatal signal
+/// removes it too (see removePendingFiles).
 class PendingFile {
   public:
     /// Throws MachineError if the folder does not exist or cannot be written.
@@ -34,7 +34,8 @@ class PendingFile {
 /// Removes the pending files of this process; async-signal-safe, for the program's signal handlers.
 void removePendingFiles() noexcept;
 
-/// Whole file; throws InputError when it cannot be read, or is larger than `limit` bytes (names both numbers).
+/// Whole file; throws InputError when it cannot be read, or is larger than `limit` bytes (names both
+/// numbers).
 [[nodiscard]] std::string readFile(const std::filesystem::path& path, std::uintmax_t limit = 1u << 30);
 /// Writes whole or not at all.
 void writeFile(const std::filesystem::path& path, std::string_view bytes);

@@ -36,17 +36,22 @@ std::vector<std::string_view> words(std::string_view text) {
     return result;
 }
 
-bool startsWith(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
+bool startsWith(std::string_view text, std::string_view start) {
+    return text.substr(0, start.size()) == start;
+}
 
 std::optional<double> parseDouble(std::string_view text) {
     text = trimmed(text);
     if (!text.empty() && text[0] == '+') text.remove_prefix(1);
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    // A number too small for double reads as "out of range" too: what is below the range is 0, what is above is no number.
-    if (error == std::errc::result_out_of_range && end == text.data() + text.size() && text.find("e-") != std::string_view::npos)
+    // A number too small for double reads as "out of range" too: what is below the range is 0, what is above
+    // is no number.
+    if (error == std::errc::result_out_of_range && end == text.data() + text.size() &&
+        text.find("e-") != std::string_view::npos)
         return 0.0;
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+        return std::nullopt;
     return value;
 }
 
@@ -58,18 +63,24 @@ std::optional<long long> parseInteger(std::string_view text) {
     return value;
 }
 
-std::string shortest(double value) { return fmt::format("{}", value); }
+std::string shortest(double value) {
+    return fmt::format("{}", value);
+}
 
-std::string rounded(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
+std::string rounded(double value, int digits) {
+    return fmt::format("{:.{}g}", value, digits);
+}
 
 static size_t editDistance(std::string_view a, std::string_view b) {
     std::vector<size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
-    for (size_t j = 0; j <= b.size(); ++j) last[j] = j;
+    for (size_t j = 0; j <= b.size(); ++j)
+        last[j] = j;
     for (size_t i = 1; i <= a.size(); ++i) {
         now[0] = i;
         for (size_t j = 1; j <= b.size(); ++j) {
             now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0u : 1u)});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) now[j] = std::min(now[j], before[j - 2] + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                now[j] = std::min(now[j], before[j - 2] + 1);
         }
         before.swap(last);
         last.swap(now);

@@ -25,7 +25,8 @@ namespace spectrad {
 /// Fixed number of significant digits for people ("%.*g").
 [[nodiscard]] std::string rounded(double value, int digits);
 
-/// The known name nearest to `name` (Damerau–Levenshtein distance of at most a third of its length), or nothing.
+/// The known name nearest to `name` (Damerau–Levenshtein distance of at most a third of its length), or
+/// nothing.
 [[nodiscard]] std::optional<std::string> nearest(std::string_view name, std::span<const std::string> known);
 /// " (did you mean 'x'?)" or "" — to end an error about an unknown name.
 [[nodiscard]] std::string didYouMean(std::string_view name, std::span<const std::string> known);

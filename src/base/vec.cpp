@@ -43,7 +43,8 @@ Affine operator*(const Affine& a, const Affine& b) {
     for (size_t row = 0; row < 3; ++row) {
         for (size_t col = 0; col < 4; ++col) {
             double sum = col == 3 ? a.m[row * 4 + 3] : 0;
-            for (size_t k = 0; k < 3; ++k) sum += a.m[row * 4 + k] * b.m[k * 4 + col];
+            for (size_t k = 0; k < 3; ++k)
+                sum += a.m[row * 4 + k] * b.m[k * 4 + col];
             r.m[row * 4 + col] = sum;
         }
     }
@@ -53,9 +54,11 @@ Affine operator*(const Affine& a, const Affine& b) {
 Affine inverse(const Affine& a) {
     const auto& m = a.m;
     const double d = 1 / a.determinant();
-    Affine r{{(m[5] * m[10] - m[6] * m[9]) * d, (m[2] * m[9] - m[1] * m[10]) * d, (m[1] * m[6] - m[2] * m[5]) * d, 0,
-              (m[6] * m[8] - m[4] * m[10]) * d, (m[0] * m[10] - m[2] * m[8]) * d, (m[2] * m[4] - m[0] * m[6]) * d, 0,
-              (m[4] * m[9] - m[5] * m[8]) * d, (m[1] * m[8] - m[0] * m[9]) * d, (m[0] * m[5] - m[1] * m[4]) * d, 0}};
+    Affine r{{(m[5] * m[10] - m[6] * m[9]) * d, (m[2] * m[9] - m[1] * m[10]) * d,
+              (m[1] * m[6] - m[2] * m[5]) * d, 0, (m[6] * m[8] - m[4] * m[10]) * d,
+              (m[0] * m[10] - m[2] * m[8]) * d, (m[2] * m[4] - m[0] * m[6]) * d, 0,
+              (m[4] * m[9] - m[5] * m[8]) * d, (m[1] * m[8] - m[0] * m[9]) * d,
+              (m[0] * m[5] - m[1] * m[4]) * d, 0}};
     const Vec3 t = r.direction({m[3], m[7], m[11]});
     r.m[3] = -t.x;
     r.m[7] = -t.y;

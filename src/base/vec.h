@@ -1,4 +1,5 @@
-// Small vectors and affine matrices, in double: scenes are composed in double and leave for the device camera-relative.
+// Small vectors and affine matrices, in double: scenes are composed in double and leave for the device
+// camera-relative.
 #pragma once
 
 #include <array>
@@ -14,12 +15,16 @@ struct Vec3 {
     friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double dot(Vec3 a, Vec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Vec3 cross(Vec3 a, Vec3 b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 /// Length without overflow or underflow.
-inline double length(Vec3 a) { return std::hypot(a.x, a.y, a.z); }
+inline double length(Vec3 a) {
+    return std::hypot(a.x, a.y, a.z);
+}
 /// Unit vector; the zero vector stays zero.
 inline Vec3 normalized(Vec3 a) {
     const double l = length(a);

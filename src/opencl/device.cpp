@@ -1,6 +1,5 @@
-#include "opencl/device_body.h"
-
 #include "base/error.h"
+#include "opencl/device_body.h"
 
 #include <fmt/format.h>
 
@@ -46,7 +45,8 @@ std::vector<Found> findDevices() {
         try {
             platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
             for (const cl::Device& device : devices)
-                found.push_back({platform, device, describe(platform, device, static_cast<int>(found.size()))});
+                found.push_back(
+                    {platform, device, describe(platform, device, static_cast<int>(found.size()))});
         } catch (const cl::Error&) {
             continue;  // a platform without devices
         }
@@ -58,18 +58,21 @@ std::vector<Found> findDevices() {
 
 std::vector<DeviceInfo> listDevices() {
     std::vector<DeviceInfo> list;
-    for (const Found& found : findDevices()) list.push_back(found.info);
+    for (const Found& found : findDevices())
+        list.push_back(found.info);
     return list;
 }
 
 Device Device::open(std::optional<int> number) {
     const std::vector<Found> found = findDevices();
     if (found.empty())
-        throw MachineError("no OpenCL device: install an OpenCL driver (on Debian: apt-get install pocl-opencl-icd)");
+        throw MachineError(
+            "no OpenCL device: install an OpenCL driver (on Debian: apt-get install pocl-opencl-icd)");
     const Found* chosen = &found.front();
     if (number) {
         if (*number < 0 || static_cast<size_t>(*number) >= found.size())
-            throw UsageError(fmt::format("there is no device {} (spectrad devices lists 0…{})", *number, found.size() - 1));
+            throw UsageError(fmt::format("there is no device {} (spectrad devices lists 0…{})", *number,
+                                         found.size() - 1));
         chosen = &found[static_cast<size_t>(*number)];
     } else {
         for (const Found& candidate : found) {
@@ -83,8 +86,8 @@ Device Device::open(std::optional<int> number) {
         throw MachineError(fmt::format("device {} ({}) lacks 64-bit atomics (cl_khr_int64_extended_atomics)",
                                        chosen->info.number, chosen->info.name));
     if (!chosen->info.fp64)
-        throw MachineError(fmt::format("device {} ({}) lacks double precision (cl_khr_fp64)", chosen->info.number,
-                                       chosen->info.name));
+        throw MachineError(fmt::format("device {} ({}) lacks double precision (cl_khr_fp64)",
+                                       chosen->info.number, chosen->info.name));
     Device device;
     device.body_ = std::make_shared<Body>();
     device.body_->info = chosen->info;
@@ -96,43 +99,66 @@ Device Device::open(std::optional<int> number) {
     return device;
 }
 
-const DeviceInfo& Device::info() const { return body_->info; }
+const DeviceInfo& Device::info() const {
+    return body_->info;
+}
 
 void throwMachineError(const cl::Error& error, const std::string& doing, const Device::Body& device) {
-    throw MachineError(fmt::format("OpenCL: {} failed with {} in {} on {}", doing, clErrorName(error.err()), error.what(),
-                                   device.info.name));
+    throw MachineError(fmt::format("OpenCL: {} failed with {} in {} on {}", doing, clErrorName(error.err()),
+                                   error.what(), device.info.name));
 }
 
 cl::Buffer allocate(const Device& device, size_t bytes, const char* what) {
     const DeviceInfo& info = device.info();
     if (bytes > info.maxAllocationBytes)
-        throw MachineError(fmt::format("{} needs {} bytes in one piece, more than the {} that device {} ({}) gives", what,
-                                       bytes, info.maxAllocationBytes, info.number, info.name));
-    return checked(device.body(), what,
-                   [&] { return cl::Buffer(device.body().context, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, bytes); });
+        throw MachineError(
+            fmt::format("{} needs {} bytes in one piece, more than the {} that device {} ({}) gives", what,
+                        bytes, info.maxAllocationBytes, info.number, info.name));
+    return checked(device.body(), what, [&] {
+        return cl::Buffer(device.body().context, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, bytes);
+    });
 }
 
 std::string clErrorName(int code) {
     switch (code) {
-        case CL_DEVICE_NOT_FOUND: return "CL_DEVICE_NOT_FOUND";
-        case CL_DEVICE_NOT_AVAILABLE: return "CL_DEVICE_NOT_AVAILABLE";
-        case CL_COMPILER_NOT_AVAILABLE: return "CL_COMPILER_NOT_AVAILABLE";
-        case CL_MEM_OBJECT_ALLOCATION_FAILURE: return "CL_MEM_OBJECT_ALLOCATION_FAILURE";
-        case CL_OUT_OF_RESOURCES: return "CL_OUT_OF_RESOURCES";
-        case CL_OUT_OF_HOST_MEMORY: return "CL_OUT_OF_HOST_MEMORY";
-        case CL_BUILD_PROGRAM_FAILURE: return "CL_BUILD_PROGRAM_FAILURE";
-        case CL_INVALID_VALUE: return "CL_INVALID_VALUE";
-        case CL_INVALID_DEVICE: return "CL_INVALID_DEVICE";
-        case CL_INVALID_CONTEXT: return "CL_INVALID_CONTEXT";
-        case CL_INVALID_BINARY: return "CL_INVALID_BINARY";
-        case CL_INVALID_KERNEL_NAME: return "CL_INVALID_KERNEL_NAME";
-        case CL_INVALID_ARG_INDEX: return "CL_INVALID_ARG_INDEX";
-        case CL_INVALID_ARG_VALUE: return "CL_INVALID_ARG_VALUE";
-        case CL_INVALID_ARG_SIZE: return "CL_INVALID_ARG_SIZE";
-        case CL_INVALID_KERNEL_ARGS: return "CL_INVALID_KERNEL_ARGS";
-        case CL_INVALID_WORK_GROUP_SIZE: return "CL_INVALID_WORK_GROUP_SIZE";
-        case CL_INVALID_BUFFER_SIZE: return "CL_INVALID_BUFFER_SIZE";
-        default: return "error " + std::to_string(code);
+        case CL_DEVICE_NOT_FOUND:
+            return "CL_DEVICE_NOT_FOUND";
+        case CL_DEVICE_NOT_AVAILABLE:
+            return "CL_DEVICE_NOT_AVAILABLE";
+        case CL_COMPILER_NOT_AVAILABLE:
+            return "CL_COMPILER_NOT_AVAILABLE";
+        case CL_MEM_OBJECT_ALLOCATION_FAILURE:
+            return "CL_MEM_OBJECT_ALLOCATION_FAILURE";
+        case CL_OUT_OF_RESOURCES:
+            return "CL_OUT_OF_RESOURCES";
+        case CL_OUT_OF_HOST_MEMORY:
+            return "CL_OUT_OF_HOST_MEMORY";
+        case CL_BUILD_PROGRAM_FAILURE:
+            return "CL_BUILD_PROGRAM_FAILURE";
+        case CL_INVALID_VALUE:
+            return "CL_INVALID_VALUE";
+        case CL_INVALID_DEVICE:
+            return "CL_INVALID_DEVICE";
+        case CL_INVALID_CONTEXT:
+            return "CL_INVALID_CONTEXT";
+        case CL_INVALID_BINARY:
+            return "CL_INVALID_BINARY";
+        case CL_INVALID_KERNEL_NAME:
+            return "CL_INVALID_KERNEL_NAME";
+        case CL_INVALID_ARG_INDEX:
+            return "CL_INVALID_ARG_INDEX";
+        case CL_INVALID_ARG_VALUE:
+            return "CL_INVALID_ARG_VALUE";
+        case CL_INVALID_ARG_SIZE:
+            return "CL_INVALID_ARG_SIZE";
+        case CL_INVALID_KERNEL_ARGS:
+            return "CL_INVALID_KERNEL_ARGS";
+        case CL_INVALID_WORK_GROUP_SIZE:
+            return "CL_INVALID_WORK_GROUP_SIZE";
+        case CL_INVALID_BUFFER_SIZE:
+            return "CL_INVALID_BUFFER_SIZE";
+        default:
+            return "error " + std::to_string(code);
     }
 }
 

@@ -24,8 +24,8 @@ struct DeviceInfo {
 /// An open device: context and queue. Copies share them.
 class Device {
   public:
-    /// Throws UsageError if that number is not there, MachineError if there is no OpenCL at all. Without a number: the first
-    /// GPU, else the first device.
+    /// Throws UsageError if that number is not there, MachineError if there is no OpenCL at all. Without a
+    /// number: the first GPU, else the first device.
     static Device open(std::optional<int> number);
 
     [[nodiscard]] const DeviceInfo& info() const;

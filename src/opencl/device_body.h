@@ -33,8 +33,10 @@ struct Device::Body {
 /// Name of an OpenCL error code: "CL_OUT_OF_RESOURCES".
 [[nodiscard]] std::string clErrorName(int code);
 
-/// Runs `call`, turning an OpenCL exception into a MachineError that says what was being done, on which device.
-[[noreturn]] void throwMachineError(const cl::Error& error, const std::string& doing, const Device::Body& device);
+/// Runs `call`, turning an OpenCL exception into a MachineError that says what was being done, on which
+/// device.
+[[noreturn]] void throwMachineError(const cl::Error& error, const std::string& doing,
+                                    const Device::Body& device);
 template <typename Call>
 decltype(auto) checked(const Device::Body& device, const char* doing, Call&& call) {
     try {
@@ -44,7 +46,8 @@ decltype(auto) checked(const Device::Body& device, const char* doing, Call&& cal
     }
 }
 
-/// A buffer of elements that grows and is kept: the first touch of memory costs several times the kernel that fills it.
+/// A buffer of elements that grows and is kept: the first touch of memory costs several times the kernel that
+/// fills it.
 template <typename T>
 class DeviceArray {
   public:

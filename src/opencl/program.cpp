@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Contraction is off in the sources; division and square root are to be correctly rounded where the device can.
+// Contraction is off in the sources; division and square root are to be correctly rounded where the device
+// can.
 std::string buildOptions(const Device::Body& body) {
     std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info -Werror";
     if (body.device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT)
@@ -68,7 +69,9 @@ bool loadCached(const Device::Body& body, const fs::path& file, cl::Program& pro
     try {
         const std::string stored = readFile(file);
         constexpr size_t digestLength = 64;
-        if (stored.size() <= digestLength || sha256(stored.substr(digestLength)) != stored.substr(0, digestLength)) return false;
+        if (stored.size() <= digestLength ||
+            sha256(stored.substr(digestLength)) != stored.substr(0, digestLength))
+            return false;
         program = fromBinary(body, stored.substr(digestLength));
         return true;
     } catch (const std::exception&) {
@@ -91,7 +94,8 @@ void storeCached(const cl::Program& program, const fs::path& file) {
 }  // namespace
 
 std::string Program::defaultCacheFolder() {
-    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder) return std::string(folder) + "/spectrad";
+    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder)
+        return std::string(folder) + "/spectrad";
     if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/spectrad";
     return {};
 }
@@ -106,12 +110,13 @@ std::string Program::source(const std::vector<std::string>& files, const std::ve
         text += "#define " + line + "\n";
     }
     std::set<std::string, std::less<>> done;
-    for (const std::string& file : files) appendWithIncludes(file, done, text);
+    for (const std::string& file : files)
+        appendWithIncludes(file, done, text);
     return text;
 }
 
-Program::Program(const Device& device, const std::vector<std::string>& files, const std::vector<std::string>& defines,
-                 const std::string& cacheFolder)
+Program::Program(const Device& device, const std::vector<std::string>& files,
+                 const std::vector<std::string>& defines, const std::string& cacheFolder)
     : device_(device) {
     const Device::Body& body = device.body();
     const std::string text = source(files, defines);
@@ -119,7 +124,8 @@ Program::Program(const Device& device, const std::vector<std::string>& files, co
     const DeviceInfo& info = device.info();
     fs::path cached;
     if (!cacheFolder.empty()) {
-        const std::string key = text + "\n" + options + "\n" + info.platform + "\n" + info.name + "\n" + info.driver + "\n" + info.version;
+        const std::string key = text + "\n" + options + "\n" + info.platform + "\n" + info.name + "\n" +
+                                info.driver + "\n" + info.version;
         cached = fs::path(cacheFolder) / (sha256(key) + ".clbin");
         if (loadCached(body, cached, program_)) return;
     }
@@ -128,19 +134,22 @@ Program::Program(const Device& device, const std::vector<std::string>& files, co
         program_.build({body.device}, options.c_str());
     } catch (const cl::Error& error) {
         std::string log;
-        if (error.err() == CL_BUILD_PROGRAM_FAILURE) log = program_.getBuildInfo<CL_PROGRAM_BUILD_LOG>(body.device);
-        throw MachineError(fmt::format("OpenCL: building kernels failed with {} on {}{}{}", clErrorName(error.err()),
-                                       info.name, log.empty() ? "" : ":\n", log));
+        if (error.err() == CL_BUILD_PROGRAM_FAILURE)
+            log = program_.getBuildInfo<CL_PROGRAM_BUILD_LOG>(body.device);
+        throw MachineError(fmt::format("OpenCL: building kernels failed with {} on {}{}{}",
+                                       clErrorName(error.err()), info.name, log.empty() ? "" : ":\n", log));
     }
     if (!cached.empty()) storeCached(program_, cached);
 }
 
-Kernel::Kernel(const Device& device, const cl::Program& program, const char* name) : device_(device), name_(name) {
+Kernel::Kernel(const Device& device, const cl::Program& program, const char* name)
+    : device_(device), name_(name) {
     checked(device.body(), name, [&] {
         kernel_ = cl::Kernel(program, name);
         const auto count = kernel_.getInfo<CL_KERNEL_NUM_ARGS>();
         isSet_.assign(count, false);
-        for (cl_uint i = 0; i < count; ++i) arguments_[kernel_.getArgInfo<CL_KERNEL_ARG_NAME>(i)] = i;
+        for (cl_uint i = 0; i < count; ++i)
+            arguments_[kernel_.getArgInfo<CL_KERNEL_ARG_NAME>(i)] = i;
     });
 }
 
@@ -165,11 +174,13 @@ void Kernel::setBytes(std::string_view argument, size_t size, const void* value)
 
 void Kernel::run(size_t items, size_t group) {
     for (const auto& [argument, index] : arguments_)
-        if (!isSet_[index]) throw std::logic_error("kernel " + name_ + ": argument '" + argument + "' was not set");
+        if (!isSet_[index])
+            throw std::logic_error("kernel " + name_ + ": argument '" + argument + "' was not set");
     if (items == 0) return;
     const size_t whole = (items + group - 1) / group * group;
     checked(device_.body(), name_.c_str(), [&] {
-        device_.body().queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(whole), cl::NDRange(group));
+        device_.body().queue.enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(whole),
+                                                  cl::NDRange(group));
     });
 }
 

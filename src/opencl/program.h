@@ -1,4 +1,5 @@
-// Kernels: built for one device with the switches of a plan, cached on disk, called with arguments bound by name.
+// Kernels: built for one device with the switches of a plan, cached on disk, called with arguments bound by
+// name.
 #pragma once
 
 #include "opencl/device_body.h"
@@ -11,7 +12,8 @@
 
 namespace spectrad {
 
-/// A kernel of a program. Arguments are set by the names they have in the .cl file; run() refuses to start while one is missing.
+/// A kernel of a program. Arguments are set by the names they have in the .cl file; run() refuses to start
+/// while one is missing.
 class Kernel {
   public:
     Kernel(const Device& device, const cl::Program& program, const char* name);
@@ -23,7 +25,8 @@ class Kernel {
         setBytes(argument, sizeof(T), &value);
         return *this;
     }
-    /// `items` work-items in groups of `group` (the kernel's reqd_work_group_size); rounded up to whole groups.
+    /// `items` work-items in groups of `group` (the kernel's reqd_work_group_size); rounded up to whole
+    /// groups.
     void run(size_t items, size_t group = 1);
 
   private:
@@ -37,16 +40,18 @@ class Kernel {
     std::vector<bool> isSet_;
 };
 
-/// One program of one or more .cl files of kernels/ (named without folder), compiled with `defines` ("HAS_GLOSS", "SAMPLES=16").
+/// One program of one or more .cl files of kernels/ (named without folder), compiled with `defines`
+/// ("HAS_GLOSS", "SAMPLES=16").
 class Program {
   public:
     /// Throws MachineError with the compiler's log. `cacheFolder` empty: no disk cache.
-    Program(const Device& device, const std::vector<std::string>& files, const std::vector<std::string>& defines,
-            const std::string& cacheFolder = defaultCacheFolder());
+    Program(const Device& device, const std::vector<std::string>& files,
+            const std::vector<std::string>& defines, const std::string& cacheFolder = defaultCacheFolder());
     [[nodiscard]] Kernel kernel(const char* name) const { return {device_, program_, name}; }
 
     /// The text that is compiled: defines on top, files and what they include in order, with #line marks.
-    [[nodiscard]] static std::string source(const std::vector<std::string>& files, const std::vector<std::string>& defines);
+    [[nodiscard]] static std::string source(const std::vector<std::string>& files,
+                                            const std::vector<std::string>& defines);
     /// $XDG_CACHE_HOME/spectrad or ~/.cache/spectrad; empty if neither is known.
     [[nodiscard]] static std::string defaultCacheFolder();
 

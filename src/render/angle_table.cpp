@@ -16,8 +16,10 @@ std::vector<sd_piece> tabulate(const AngleFunction& f) {
         }
         // The cubic through t = 0, 1/3, 2/3, 1.
         const double d1 = y[1] - y[0], d2 = y[2] - y[0], d3 = y[3] - y[0];
-        const std::array<double, 4> c{y[0], 9 * d1 - 4.5 * d2 + d3, -22.5 * d1 + 18 * d2 - 4.5 * d3, 13.5 * d1 - 13.5 * d2 + 4.5 * d3};
-        for (size_t i = 0; i < 4; ++i) pieces[static_cast<size_t>(cell)].c[i] = static_cast<float>(c[i]);
+        const std::array<double, 4> c{y[0], 9 * d1 - 4.5 * d2 + d3, -22.5 * d1 + 18 * d2 - 4.5 * d3,
+                                      13.5 * d1 - 13.5 * d2 + 4.5 * d3};
+        for (size_t i = 0; i < 4; ++i)
+            pieces[static_cast<size_t>(cell)].c[i] = static_cast<float>(c[i]);
     }
     return pieces;
 }

@@ -10,8 +10,8 @@ namespace spectrad {
 
 using AngleFunction = std::function<double(double cosine)>;
 
-/// SD_CELLS pieces, each the cubic through four points of its cell: continuous, error below f⁗ h⁴ / 1900 with h = 1 / SD_CELLS
-/// (derivatives with respect to the square root of the cosine).
+/// SD_CELLS pieces, each the cubic through four points of its cell: continuous, error below f⁗ h⁴ / 1900 with
+/// h = 1 / SD_CELLS (derivatives with respect to the square root of the cosine).
 [[nodiscard]] std::vector<sd_piece> tabulate(const AngleFunction& f);
 
 /// The tabulated function in double, as kernels evaluate it in float.

@@ -11,13 +11,16 @@ namespace {
 
 double segment(const std::vector<Curve>& factors, double from, double to) {
     // 4-point Gauss–Legendre on a segment without breaks.
-    static constexpr double x[4] = {-0.86113631159405257522, -0.33998104358485626480, 0.33998104358485626480, 0.86113631159405257522};
-    static constexpr double w[4] = {0.34785484513745385737, 0.65214515486254614263, 0.65214515486254614263, 0.34785484513745385737};
+    static constexpr double x[4] = {-0.86113631159405257522, -0.33998104358485626480, 0.33998104358485626480,
+                                    0.86113631159405257522};
+    static constexpr double w[4] = {0.34785484513745385737, 0.65214515486254614263, 0.65214515486254614263,
+                                    0.34785484513745385737};
     const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
     double sum = 0;
     for (int i = 0; i < 4; ++i) {
         double product = w[i];
-        for (const Curve& factor : factors) product *= factor.at(middle + half * x[i]);
+        for (const Curve& factor : factors)
+            product *= factor.at(middle + half * x[i]);
         sum += product;
     }
     return sum * half;
@@ -25,17 +28,22 @@ double segment(const std::vector<Curve>& factors, double from, double to) {
 
 }  // namespace
 
-Cumulative::Cumulative(std::vector<Curve> weights, const Curve& light, std::optional<std::pair<double, double>> range) {
+Cumulative::Cumulative(std::vector<Curve> weights, const Curve& light,
+                       std::optional<std::pair<double, double>> range) {
     auto body = std::make_shared<Body>();
     const auto lightRange = light.range();
-    if (!range && !lightRange) throw InputError("an excitation that goes on at all wavelengths needs a light that does not");
-    body->from = std::max(range ? range->first : lightRange->first, lightRange ? lightRange->first : range->first);
-    body->to = std::min(range ? range->second : lightRange->second, lightRange ? lightRange->second : range->second);
+    if (!range && !lightRange)
+        throw InputError("an excitation that goes on at all wavelengths needs a light that does not");
+    body->from =
+        std::max(range ? range->first : lightRange->first, lightRange ? lightRange->first : range->first);
+    body->to =
+        std::min(range ? range->second : lightRange->second, lightRange ? lightRange->second : range->second);
     body->factors = weights;
     body->factors.push_back(light);
     if (body->to > body->from) {
         body->knots = {body->from, body->to};
-        for (const Curve& factor : body->factors) factor.appendBreaks(body->from, body->to, body->knots);
+        for (const Curve& factor : body->factors)
+            factor.appendBreaks(body->from, body->to, body->knots);
         std::sort(body->knots.begin(), body->knots.end());
         body->knots.erase(std::unique(body->knots.begin(), body->knots.end()), body->knots.end());
         double sum = 0;
@@ -48,7 +56,8 @@ Cumulative::Cumulative(std::vector<Curve> weights, const Curve& light, std::opti
     double power = 0;
     for (const SpectralLine& line : light.lines()) {
         double product = line.integral;
-        for (const Curve& weight : weights) product *= weight.at(line.nm);
+        for (const Curve& weight : weights)
+            product *= weight.at(line.nm);
         power += product;
         body->lines.emplace_back(line.nm, power);
     }

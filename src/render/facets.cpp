@@ -35,9 +35,10 @@ struct Gauss {
     }
 };
 
-/// Sums over the distribution of normals visible from `cosine` (Heitz 2018), where the integrand is F · G2 / G1, smooth at any
-/// roughness: sums[i] for each Fresnel function, sums.back() for perfect mirrors.
-std::vector<double> singleScattering(double cosine, const std::vector<std::vector<sd_piece>>& fresnel, double alpha) {
+/// Sums over the distribution of normals visible from `cosine` (Heitz 2018), where the integrand is F · G2 /
+/// G1, smooth at any roughness: sums[i] for each Fresnel function, sums.back() for perfect mirrors.
+std::vector<double> singleScattering(double cosine, const std::vector<std::vector<sd_piece>>& fresnel,
+                                     double alpha) {
     static const Gauss<32> radial;
     constexpr int around = 48;
     const double vz = std::max(cosine, 1e-6), vx = std::sqrt(std::max(0.0, 1 - vz * vz));
@@ -62,9 +63,11 @@ std::vector<double> singleScattering(double cosine, const std::vector<std::vecto
             const double vh = std::clamp(vx * nx + vz * nz, 0.0, 1.0);
             const double lz = 2 * vh * nz - vz;
             if (lz <= 0) continue;
-            const double g1 = 2 * vz / (lambda(vz) + vz), g2 = 2 * lz * vz / (vz * lambda(lz) + lz * lambda(vz));
+            const double g1 = 2 * vz / (lambda(vz) + vz),
+                         g2 = 2 * lz * vz / (vz * lambda(lz) + lz * lambda(vz));
             const double weight = radial.w[i] * 2 * r / around * g2 / g1;
-            for (size_t f = 0; f < fresnel.size(); ++f) sums[f] += weight * evaluate(fresnel[f].data(), vh);
+            for (size_t f = 0; f < fresnel.size(); ++f)
+                sums[f] += weight * evaluate(fresnel[f].data(), vh);
             sums.back() += weight;
         }
     }
@@ -82,16 +85,19 @@ FacetAlbedos facetAlbedos(const std::vector<AngleFunction>& fresnel, double alph
     }
     constexpr int nodes = 128;
     std::vector<std::vector<sd_piece>> tables;
-    for (const AngleFunction& f : fresnel) tables.push_back(tabulate(f));
+    for (const AngleFunction& f : fresnel)
+        tables.push_back(tabulate(f));
     std::vector<std::vector<double>> values(fresnel.size() + 1);
     for (int i = 0; i <= nodes; ++i) {
         const double root = static_cast<double>(i) / nodes;
         const std::vector<double> sums = singleScattering(root * root, tables, alpha);
-        for (size_t f = 0; f < sums.size(); ++f) values[f].push_back(f + 1 == sums.size() ? std::min(sums[f], 1.0) : sums[f]);
+        for (size_t f = 0; f < sums.size(); ++f)
+            values[f].push_back(f + 1 == sums.size() ? std::min(sums[f], 1.0) : sums[f]);
     }
     result.white = interpolated(std::move(values.back()));
     values.pop_back();
-    for (auto& v : values) result.albedo.push_back(interpolated(std::move(v)));
+    for (auto& v : values)
+        result.albedo.push_back(interpolated(std::move(v)));
     result.whiteMean = std::min(1.0, cosineMean(result.white));
     return result;
 }
@@ -109,9 +115,11 @@ OrenNayar orenNayar(double sigmaDegrees) {
     model.b = model.a * ratio;
     const double a = model.a;
     model.albedo = [a, ratio](double cosine) {
-        // ∫ over the hemisphere of the shape 1 + (B/A) s/t: closed form (Portsmouth, Kutz & Hill 2024, eq. 17).
+        // ∫ over the hemisphere of the shape 1 + (B/A) s/t: closed form (Portsmouth, Kutz & Hill 2024, eq.
+        // 17).
         const double c = std::clamp(cosine, 0.0, 1.0), sine = std::sqrt(1 - c * c), theta = std::acos(c);
-        const double g = sine * (theta - sine * c) + (2.0 / 3.0) * (c > 1e-7 ? sine / c * (1 - sine * sine * sine) : 0.0);
+        const double g =
+            sine * (theta - sine * c) + (2.0 / 3.0) * (c > 1e-7 ? sine / c * (1 - sine * sine * sine) : 0.0);
         return a * (1 + ratio * g / pi);
     };
     model.mean = cosineMean(model.albedo);

@@ -1,4 +1,5 @@
-// Energy of rough surfaces: directional albedos of GGX microfacets and of Oren–Nayar's, the numbers that keep lobes in balance.
+// Energy of rough surfaces: directional albedos of GGX microfacets and of Oren–Nayar's, the numbers that keep
+// lobes in balance.
 #pragma once
 
 #include "render/angle_table.h"
@@ -7,8 +8,8 @@
 
 namespace spectrad {
 
-/// Single-scattering directional albedos of GGX (Smith, height-correlated) with roughness `alpha`, for facets that reflect
-/// fresnel[i](cosine between view and facet), and for perfect mirrors.
+/// Single-scattering directional albedos of GGX (Smith, height-correlated) with roughness `alpha`, for facets
+/// that reflect fresnel[i](cosine between view and facet), and for perfect mirrors.
 struct FacetAlbedos {
     std::vector<AngleFunction> albedo;  ///< one per Fresnel function
     AngleFunction white;
@@ -16,8 +17,8 @@ struct FacetAlbedos {
 };
 [[nodiscard]] FacetAlbedos facetAlbedos(const std::vector<AngleFunction>& fresnel, double alpha);
 
-/// Reflectance of light that bounces between facets, given their mean Fresnel reflectance: the geometric series of Kulla &
-/// Conty 2017, F² E / (1 − F (1 − E)).
+/// Reflectance of light that bounces between facets, given their mean Fresnel reflectance: the geometric
+/// series of Kulla & Conty 2017, F² E / (1 − F (1 − E)).
 [[nodiscard]] double multipleScattering(double meanFresnel, double whiteMean);
 
 /// Oren & Nayar's A and B for a roughness σ in degrees.
@@ -26,7 +27,8 @@ struct OrenNayar {
     AngleFunction albedo;  ///< directional albedo of single scattering at reflectance 1
     double mean = 1;
 };
-/// With B/A of 1994 and A such that no energy is gained (Fujii's form, as Portsmouth, Kutz & Hill 2024 use it).
+/// With B/A of 1994 and A such that no energy is gained (Fujii's form, as Portsmouth, Kutz & Hill 2024 use
+/// it).
 [[nodiscard]] OrenNayar orenNayar(double sigmaDegrees);
 
 }  // namespace spectrad

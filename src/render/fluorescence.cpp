@@ -21,21 +21,28 @@ DonaldsonMatrix readDonaldson(const std::string& file) {
     std::vector<std::pair<double, size_t>> order;
     for (size_t c = 0; c < table.header.size(); ++c) {
         const std::string& name = table.header[c];
-        const std::optional<double> nm = startsWith(name, "ex") ? parseDouble(std::string_view(name).substr(2)) : std::nullopt;
+        const std::optional<double> nm =
+            startsWith(name, "ex") ? parseDouble(std::string_view(name).substr(2)) : std::nullopt;
         if (!nm || !(*nm > 0))
-            throw InputError(file + ": column '" + name + "' of a bispectral matrix is not called exNNN (NNN: excitation wavelength in nm)");
+            throw InputError(
+                file + ": column '" + name +
+                "' of a bispectral matrix is not called exNNN (NNN: excitation wavelength in nm)");
         order.emplace_back(*nm, c);
     }
     std::sort(order.begin(), order.end());
     for (size_t i = 0; i + 1 < order.size(); ++i)
         if (order[i].first == order[i + 1].first)
-            throw InputError(file + ": two columns for the excitation wavelength " + shortest(order[i].first) + " nm");
-    if (order.size() < 2) throw InputError(file + ": a bispectral matrix needs at least two excitation columns");
-    if (matrix.emission.size() < 2) throw InputError(file + ": a bispectral matrix needs at least two emission rows");
+            throw InputError(file + ": two columns for the excitation wavelength " +
+                             shortest(order[i].first) + " nm");
+    if (order.size() < 2)
+        throw InputError(file + ": a bispectral matrix needs at least two excitation columns");
+    if (matrix.emission.size() < 2)
+        throw InputError(file + ": a bispectral matrix needs at least two emission rows");
     matrix.value.assign(matrix.emission.size(), {});
     for (const auto& [nm, column] : order) {
         matrix.excitation.push_back(nm);
-        for (size_t row = 0; row < matrix.emission.size(); ++row) matrix.value[row].push_back(table.columns[column][row]);
+        for (size_t row = 0; row < matrix.emission.size(); ++row)
+            matrix.value[row].push_back(table.columns[column][row]);
     }
     return matrix;
 }
@@ -57,17 +64,22 @@ void FluorescentBase::addSeparable(const Fluorescence& part) {
     Separable s;
     const Curve& x = part.excitation->curve();
     const double peak = x.bounds().second;
-    if (!(peak > 0)) throw InputError(part.where, "excitation '" + part.excitation->text + "' is zero everywhere");
+    if (!(peak > 0))
+        throw InputError(part.where, "excitation '" + part.excitation->text + "' is zero everywhere");
     s.excitation = x.scaled(1 / peak);
-    const Curve wavelength = Curve::formula([](double nm) { return nm; }, [](double, double, std::vector<double>&) {});
+    const Curve wavelength =
+        Curve::formula([](double nm) { return nm; }, [](double, double, std::vector<double>&) {});
     const Curve& e = part.emission->curve();
-    if (!e.range()) throw InputError(part.where, "emission '" + part.emission->text + "' goes on at all wavelengths");
+    if (!e.range())
+        throw InputError(part.where, "emission '" + part.emission->text + "' goes on at all wavelengths");
     // Photons per nm over λ are energy per nm: e λ is then the counted shape itself.
     const std::array<const Curve*, 2> photons{&e, &wavelength};
     const std::array<const Curve*, 1> counted{&e};
     const double total = part.emissionInPhotons ? integrate(counted) : integrate(photons);
     if (!(total > 0)) throw InputError(part.where, "emission '" + part.emission->text + "' has no energy");
-    s.emission = part.emissionInPhotons ? Curve::combined({e, wavelength}, [](std::span<const double> v) { return v[0] / v[1]; }) : e;
+    s.emission = part.emissionInPhotons
+                     ? Curve::combined({e, wavelength}, [](std::span<const double> v) { return v[0] / v[1]; })
+                     : e;
     s.factor = part.yield * part.strength / total;
     s.antiStokes = part.antiStokes;
     separable_.push_back(std::move(s));
@@ -81,7 +93,8 @@ void FluorescentBase::addMatrix(const Fluorescence& part, const Material& materi
     b.emission = m.emission;
     b.bandCentre = ex;
     for (size_t i = 0; i < columns; ++i) {
-        const double below = i > 0 ? ex[i] - ex[i - 1] : ex[1] - ex[0], above = i + 1 < columns ? ex[i + 1] - ex[i] : ex[i] - ex[i - 1];
+        const double below = i > 0 ? ex[i] - ex[i - 1] : ex[1] - ex[0],
+                     above = i + 1 < columns ? ex[i + 1] - ex[i] : ex[i] - ex[i - 1];
         b.bandFrom.push_back(ex[i] - below / 2);
         b.bandTo.push_back(ex[i] + above / 2);
     }
@@ -102,21 +115,34 @@ void FluorescentBase::addMatrix(const Fluorescence& part, const Material& materi
         }
     }
     if (zeroed > 0)
-        notes.say(fmt::format("{}: {} cells whose emission lies below the excitation set to zero (largest {})", part.matrixFile, zeroed, rounded(zeroedMost, 3)));
+        notes.say(
+            fmt::format("{}: {} cells whose emission lies below the excitation set to zero (largest {})",
+                        part.matrixFile, zeroed, rounded(zeroedMost, 3)));
     if (!part.diagonalNone) {
-        if (material.diffuse) throw InputError(part.where, "the matrix's diagonal is the reflectance: leave out <diffuse>, or say diagonal=\"none\"");
-        if (diagonal.empty()) throw InputError(part.where, "the matrix has no diagonal (no row at an excitation wavelength): say diagonal=\"none\"");
-        if (!black_) throw InputError(part.where, "two matrices with a diagonal: one of them must say diagonal=\"none\"");
+        if (material.diffuse)
+            throw InputError(
+                part.where,
+                "the matrix's diagonal is the reflectance: leave out <diffuse>, or say diagonal=\"none\"");
+        if (diagonal.empty())
+            throw InputError(
+                part.where,
+                "the matrix has no diagonal (no row at an excitation wavelength): say diagonal=\"none\"");
+        if (!black_)
+            throw InputError(part.where,
+                             "two matrices with a diagonal: one of them must say diagonal=\"none\"");
         size_t clipped = 0;
         for (double& value : diagonal) {
             if (value < 0) ++clipped;
             value = std::max(value, 0.0);
         }
-        if (clipped > 0) notes.say(fmt::format("{}: {} negative reflectances on the diagonal set to zero", part.matrixFile, clipped));
+        if (clipped > 0)
+            notes.say(fmt::format("{}: {} negative reflectances on the diagonal set to zero", part.matrixFile,
+                                  clipped));
         base_ = Curve::table(diagonalNm, diagonal, Outside::hold);
         black_ = false;
     }
-    // Energy out per energy in: what column i sends out over all wavelengths, per nm of its band, and what it reflects.
+    // Energy out per energy in: what column i sends out over all wavelengths, per nm of its band, and what it
+    // reflects.
     size_t tooMuch = 0;
     double most = 0;
     for (size_t i = 0; i < columns; ++i) {
@@ -128,34 +154,43 @@ void FluorescentBase::addMatrix(const Fluorescence& part, const Material& materi
         most = std::max(most, ratio);
     }
     if (tooMuch > 0)
-        notes.warn(part.where, fmt::format("{}: {} excitation bands send out more energy than they take in (up to {} of it)", part.matrixFile, tooMuch, rounded(most, 4)));
+        notes.warn(
+            part.where,
+            fmt::format("{}: {} excitation bands send out more energy than they take in (up to {} of it)",
+                        part.matrixFile, tooMuch, rounded(most, 4)));
     b.value = std::move(m.value);
     bispectral_.push_back(std::move(b));
 }
 
-double FluorescentBase::amplified(double nm) const { return inside_ == 0 ? 1 : 1 / (1 - base_.at(nm) * inside_); }
+double FluorescentBase::amplified(double nm) const {
+    return inside_ == 0 ? 1 : 1 / (1 - base_.at(nm) * inside_);
+}
 
 Curve FluorescentBase::reflectance() const {
     if (inside_ == 0) return base_;
     const double r = inside_;
-    return Curve::combined({base_}, [r](std::span<const double> v) { return v[0] * (1 - r) / (1 - v[0] * r); });
+    return Curve::combined({base_},
+                           [r](std::span<const double> v) { return v[0] * (1 - r) / (1 - v[0] * r); });
 }
 
 std::vector<Curve> FluorescentBase::reradiation(const Curve& light) const {
     std::vector<Curve> curves;
-    for (const Separable& part : separable_) curves.push_back(glow(part, light));
-    for (const Bispectral& part : bispectral_) curves.push_back(glow(part, light));
+    for (const Separable& part : separable_)
+        curves.push_back(glow(part, light));
+    for (const Bispectral& part : bispectral_)
+        curves.push_back(glow(part, light));
     return curves;
 }
 
-// M(λo, λi) = Q · a(λi) · λi · e(λo) / ∫ e λ dλ for λi ≤ λo: the emission's curve times the photons absorbed so far. Under a coat
-// light of λi comes back to the base, and so does what it sends out.
+// M(λo, λi) = Q · a(λi) · λi · e(λo) / ∫ e λ dλ for λi ≤ λo: the emission's curve times the photons absorbed
+// so far. Under a coat light of λi comes back to the base, and so does what it sends out.
 Curve FluorescentBase::glow(const Separable& part, const Curve& light) const {
     const double r = inside_;
     const Curve absorbed = Curve::combined({part.excitation, base_}, [r](std::span<const double> v) {
         return v[0] * std::max(0.0, 1 - v[1]) / (1 - v[1] * r);
     });
-    const Curve photons = Curve::formula([](double nm) { return nm; }, [](double, double, std::vector<double>&) {});
+    const Curve photons =
+        Curve::formula([](double nm) { return nm; }, [](double, double, std::vector<double>&) {});
     const auto range = part.emission.range();
     const Cumulative taken({absorbed, photons}, light, part.excitation.range());
     const Curve& e = part.emission;
@@ -163,7 +198,9 @@ Curve FluorescentBase::glow(const Separable& part, const Curve& light) const {
     const bool antiStokes = part.antiStokes;
     const Curve base = base_;
     return Curve::formula(
-        [=](double nm) { return factor * e.at(nm) * (antiStokes ? taken.total() : taken.upTo(nm)) / (1 - base.at(nm) * r); },
+        [=](double nm) {
+            return factor * e.at(nm) * (antiStokes ? taken.total() : taken.upTo(nm)) / (1 - base.at(nm) * r);
+        },
         [=](double from, double to, std::vector<double>& out) {
             std::vector<double> all;
             e.appendBreaks(from, to, all);
@@ -177,15 +214,18 @@ Curve FluorescentBase::glow(const Separable& part, const Curve& light) const {
 
 Curve FluorescentBase::glow(const Bispectral& part, const Curve& light) const {
     std::vector<double> irradiance;
-    const Curve gain = Curve::combined({base_}, [r = inside_](std::span<const double> v) { return 1 / (1 - v[0] * r); });
+    const Curve gain =
+        Curve::combined({base_}, [r = inside_](std::span<const double> v) { return 1 / (1 - v[0] * r); });
     for (size_t i = 0; i < part.bandCentre.size(); ++i) {
         const std::array<const Curve*, 2> product{&light, &gain};
-        irradiance.push_back(integrate(product, part.bandFrom[i], part.bandTo[i]) / (part.bandTo[i] - part.bandFrom[i]));
+        irradiance.push_back(integrate(product, part.bandFrom[i], part.bandTo[i]) /
+                             (part.bandTo[i] - part.bandFrom[i]));
     }
     std::vector<double> sum;
     for (size_t row = 0; row < part.emission.size(); ++row) {
         double value = 0;
-        for (size_t i = 0; i < irradiance.size(); ++i) value += part.value[row][i] * irradiance[i];
+        for (size_t i = 0; i < irradiance.size(); ++i)
+            value += part.value[row][i] * irradiance[i];
         sum.push_back(value * (1 - inside_) * amplified(part.emission[row]));
     }
     return Curve::table(part.emission, sum, Outside::zero);

@@ -1,5 +1,5 @@
-// Fluorescence: what a substrate sends back at other wavelengths than it was lit with. Sources: docs/format.md ("Fluorescence"),
-// Donaldson 1954 (bispectral radiance factors), Hullin et al. 2010.
+// Fluorescence: what a substrate sends back at other wavelengths than it was lit with. Sources:
+// docs/format.md ("Fluorescence"), Donaldson 1954 (bispectral radiance factors), Hullin et al. 2010.
 #pragma once
 
 #include "scene/scene.h"
@@ -9,15 +9,18 @@
 
 namespace spectrad {
 
-/// A bispectral matrix as read: radiance factors D[row][column], row = emission, column = excitation band (both nm, ascending).
+/// A bispectral matrix as read: radiance factors D[row][column], row = emission, column = excitation band
+/// (both nm, ascending).
 struct DonaldsonMatrix {
     std::vector<double> emission, excitation;
     std::vector<std::vector<double>> value;
 };
-/// CSV or text: first column emission_nm, then a column exNNN for each excitation band. Throws InputError with file and line.
+/// CSV or text: first column emission_nm, then a column exNNN for each excitation band. Throws InputError
+/// with file and line.
 [[nodiscard]] DonaldsonMatrix readDonaldson(const std::string& file);
 
-/// The diffuse part of a material with its fluorophores, seen through a coat that sends `inside` of diffuse light back down.
+/// The diffuse part of a material with its fluorophores, seen through a coat that sends `inside` of diffuse
+/// light back down.
 class FluorescentBase {
   public:
     /// Throws InputError for parts that contradict each other; what was changed in a matrix goes to notes.
@@ -26,7 +29,8 @@ class FluorescentBase {
     [[nodiscard]] bool isBlack() const { return black_; }
     /// ρ (1 − r) / (1 − ρ r), r the coat's reflectance from inside.
     [[nodiscard]] Curve reflectance() const;
-    /// For each fluorophore ∫ M(λo, λi) E(λi) dλi over a light's irradiance E, as a curve over λo, coat included.
+    /// For each fluorophore ∫ M(λo, λi) E(λi) dλi over a light's irradiance E, as a curve over λo, coat
+    /// included.
     [[nodiscard]] std::vector<Curve> reradiation(const Curve& light) const;
 
   private:

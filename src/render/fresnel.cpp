@@ -34,7 +34,8 @@ double fresnelSchlick(double c, double r0) {
 
 namespace {
 
-/// Wavelengths between which n and k are linear, each interval cut into `parts`, thinned to at most a thousand.
+/// Wavelengths between which n and k are linear, each interval cut into `parts`, thinned to at most a
+/// thousand.
 std::vector<double> wavelengthsOf(const Curve& n, const Curve& k, double from, double to, int parts) {
     std::vector<double> knots{from, to};
     n.appendBreaks(from, to, knots);
@@ -43,22 +44,26 @@ std::vector<double> wavelengthsOf(const Curve& n, const Curve& k, double from, d
     knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
     std::vector<double> result;
     for (size_t i = 0; i + 1 < knots.size(); ++i)
-        for (int p = 0; p < parts; ++p) result.push_back(knots[i] + (knots[i + 1] - knots[i]) * p / parts);
+        for (int p = 0; p < parts; ++p)
+            result.push_back(knots[i] + (knots[i + 1] - knots[i]) * p / parts);
     result.push_back(to);
     constexpr size_t most = 1000;
     if (result.size() <= most) return result;
     std::vector<double> thinned;
-    for (size_t i = 0; i < most; ++i) thinned.push_back(result[i * (result.size() - 1) / (most - 1)]);
+    for (size_t i = 0; i < most; ++i)
+        thinned.push_back(result[i * (result.size() - 1) / (most - 1)]);
     return thinned;
 }
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0;
-    for (size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+    for (size_t i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
     return sum;
 }
 
-/// Reflectance of all wavelengths at one angle, relative to normal incidence so that dark wavelengths count as much as bright ones.
+/// Reflectance of all wavelengths at one angle, relative to normal incidence so that dark wavelengths count
+/// as much as bright ones.
 struct Spectra {
     std::vector<double> n, k, weight;
     Spectra(const Curve& nCurve, const Curve& kCurve, const std::vector<double>& wavelengths) {
@@ -70,12 +75,14 @@ struct Spectra {
     }
     [[nodiscard]] std::vector<double> at(double cosine) const {
         std::vector<double> row;
-        for (size_t i = 0; i < n.size(); ++i) row.push_back(weight[i] * fresnelConductor(cosine, n[i], k[i]));
+        for (size_t i = 0; i < n.size(); ++i)
+            row.push_back(weight[i] * fresnelConductor(cosine, n[i], k[i]));
         return row;
     }
 };
 
-/// The chosen angles' spectra, orthonormalized: gives the coefficients of any angle's spectrum in terms of the chosen ones.
+/// The chosen angles' spectra, orthonormalized: gives the coefficients of any angle's spectrum in terms of
+/// the chosen ones.
 struct Basis {
     std::vector<std::vector<double>> q;  ///< orthonormal
     std::vector<std::vector<double>> r;  ///< r[j][i] = q[i] · chosen[j], i ≤ j
@@ -87,7 +94,8 @@ struct Basis {
             for (size_t i = 0; i < q.size(); ++i) {
                 const double d = dot(q[i], row);
                 coefficients[i] += d;
-                for (size_t j = 0; j < row.size(); ++j) row[j] -= d * q[i][j];
+                for (size_t j = 0; j < row.size(); ++j)
+                    row[j] -= d * q[i][j];
             }
         }
         return coefficients;
@@ -95,7 +103,8 @@ struct Basis {
     void add(std::vector<double> row) {
         std::vector<double> coefficients = reduce(row);
         const double length = std::sqrt(dot(row, row));
-        for (double& v : row) v /= length;
+        for (double& v : row)
+            v /= length;
         coefficients.push_back(length);
         q.push_back(std::move(row));
         r.push_back(std::move(coefficients));
@@ -105,7 +114,8 @@ struct Basis {
         std::vector<double> c = reduce(row);
         for (size_t i = c.size(); i-- > 0;) {
             c[i] /= r[i][i];
-            for (size_t j = 0; j < i; ++j) c[j] -= r[i][j] * c[i];
+            for (size_t j = 0; j < i; ++j)
+                c[j] -= r[i][j] * c[i];
         }
         return c;
     }
@@ -113,7 +123,8 @@ struct Basis {
 
 double largest(const std::vector<double>& row) {
     double m = 0;
-    for (double v : row) m = std::max(m, std::abs(v));
+    for (double v : row)
+        m = std::max(m, std::abs(v));
     return m;
 }
 
@@ -136,14 +147,15 @@ FresnelBasis conductorBasis(const Curve& n, const Curve& k, double from, double 
         for (size_t i = 0; i < left.size(); ++i)
             if (largest(left[i]) > largest(left[worst])) worst = i;
         if (!basis.q.empty() && largest(left[worst]) < wanted) break;
-        if (basis.q.empty()) worst = angles;  // normal incidence first
+        if (basis.q.empty()) worst = angles;   // normal incidence first
         if (largest(left[worst]) == 0) break;  // nothing is reflected at all
         const double root = static_cast<double>(worst) / angles;
         cosines.push_back(root * root);
         basis.add(spectra.at(root * root));
         for (auto& row : left) {
             const double d = dot(basis.q.back(), row);
-            for (size_t j = 0; j < row.size(); ++j) row[j] -= d * basis.q.back()[j];
+            for (size_t j = 0; j < row.size(); ++j)
+                row[j] -= d * basis.q.back()[j];
         }
     }
     FresnelBasis result;
@@ -153,11 +165,13 @@ FresnelBasis conductorBasis(const Curve& n, const Curve& k, double from, double 
     for (int i = 0; i <= nodes; ++i) {
         const double root = static_cast<double>(i) / nodes;
         const std::vector<double> weights = basis.weights(spectra.at(root * root));
-        for (size_t c = 0; c < weights.size(); ++c) weightsAt[c].push_back(weights[c]);
+        for (size_t c = 0; c < weights.size(); ++c)
+            weightsAt[c].push_back(weights[c]);
     }
     for (size_t i = 0; i < cosines.size(); ++i) {
         const double cosine = cosines[i];
-        result.spectrum.push_back(Curve::combined({n, k}, [cosine](std::span<const double> v) { return fresnelConductor(cosine, v[0], v[1]); }));
+        result.spectrum.push_back(Curve::combined(
+            {n, k}, [cosine](std::span<const double> v) { return fresnelConductor(cosine, v[0], v[1]); }));
         result.angle.push_back(interpolated(std::move(weightsAt[i])));
     }
     const Spectra fine(n, k, wavelengthsOf(n, k, from, to, 3));
@@ -165,11 +179,14 @@ FresnelBasis conductorBasis(const Curve& n, const Curve& k, double from, double 
         const double cosine = (a / 400.0) * (a / 400.0);
         const std::vector<double> exact = fine.at(cosine);
         std::vector<double> weights;
-        for (const AngleFunction& f : result.angle) weights.push_back(f(cosine));
+        for (const AngleFunction& f : result.angle)
+            weights.push_back(f(cosine));
         for (size_t j = 0; j < exact.size(); ++j) {
             double sum = 0;
-            for (size_t i = 0; i < weights.size(); ++i) sum += weights[i] * fine.weight[j] * fresnelConductor(cosines[i], fine.n[j], fine.k[j]);
-            if (exact[j] > 0) result.relativeError = std::max(result.relativeError, std::abs(sum - exact[j]) / exact[j]);
+            for (size_t i = 0; i < weights.size(); ++i)
+                sum += weights[i] * fine.weight[j] * fresnelConductor(cosines[i], fine.n[j], fine.k[j]);
+            if (exact[j] > 0)
+                result.relativeError = std::max(result.relativeError, std::abs(sum - exact[j]) / exact[j]);
         }
     }
     return result;
@@ -177,8 +194,11 @@ FresnelBasis conductorBasis(const Curve& n, const Curve& k, double from, double 
 
 FresnelBasis schlickBasis(const Curve& n, const Curve& k) {
     FresnelBasis basis;
-    basis.angle = {[](double c) { return 1 - fresnelSchlick(c, 0); }, [](double c) { return fresnelSchlick(c, 0); }};
-    basis.spectrum = {Curve::combined({n, k}, [](std::span<const double> v) { return fresnelConductor(1, v[0], v[1]); }), Curve::constant(1)};
+    basis.angle = {[](double c) { return 1 - fresnelSchlick(c, 0); },
+                   [](double c) { return fresnelSchlick(c, 0); }};
+    basis.spectrum = {
+        Curve::combined({n, k}, [](std::span<const double> v) { return fresnelConductor(1, v[0], v[1]); }),
+        Curve::constant(1)};
     return basis;
 }
 

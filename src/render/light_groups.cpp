@@ -20,9 +20,12 @@ double radiometricIntegral(const Emitter& emitter) {
         return integrate(product, emitter.amount->over->first, emitter.amount->over->second);
     }
     if (curve.isConstant())
-        throw InputError(emitter.where, "a constant spectrum has no total: say over which wavelengths, as in \"100 W/m2 over 400:700\"");
+        throw InputError(
+            emitter.where,
+            "a constant spectrum has no total: say over which wavelengths, as in \"100 W/m2 over 400:700\"");
     const std::array<const Curve*, 1> product{&curve};
-    // Planck's law is the one formula without a range: below 1 nm and beyond 0.1 m nothing is left of it for any lamp.
+    // Planck's law is the one formula without a range: below 1 nm and beyond 0.1 m nothing is left of it for
+    // any lamp.
     return curve.range() ? integrate(product) : integrate(product, 1, 1e8);
 }
 
@@ -30,7 +33,8 @@ double photometricIntegral(const Emitter& emitter, const Detector& observer) {
     const Curve& curve = emitter.spectrum.curve();
     const std::array<const Curve*, 2> product{&curve, &observer.response[1]};
     if (emitter.amount->over)
-        return luminousEfficacy * integrate(product, emitter.amount->over->first, emitter.amount->over->second);
+        return luminousEfficacy *
+               integrate(product, emitter.amount->over->first, emitter.amount->over->second);
     return luminousEfficacy * integrate(product);
 }
 
@@ -53,10 +57,18 @@ sd_light placed(const Light& light, const Affine& toWorld, const View& view) {
     const Vec3 position = view.worldToCamera.point(toWorld.point(light.position));
     const Vec3 along = normalized(view.worldToCamera.direction(toWorld.direction(light.direction)));
     switch (light.type) {
-        case LightType::point: l.type = SD_LIGHT_POINT; break;
-        case LightType::spot: l.type = SD_LIGHT_SPOT; break;
-        case LightType::directional: l.type = SD_LIGHT_DIRECTIONAL; break;
-        case LightType::ambient: l.type = SD_LIGHT_AMBIENT; break;
+        case LightType::point:
+            l.type = SD_LIGHT_POINT;
+            break;
+        case LightType::spot:
+            l.type = SD_LIGHT_SPOT;
+            break;
+        case LightType::directional:
+            l.type = SD_LIGHT_DIRECTIONAL;
+            break;
+        case LightType::ambient:
+            l.type = SD_LIGHT_AMBIENT;
+            break;
     }
     const Vec3 place = light.type == LightType::directional ? along * -1 : position;
     l.x = static_cast<float>(place.x);
@@ -86,23 +98,28 @@ double powerToIntensity(const Light& light) {
 /// Only a perfectly smooth surface shows what is behind the viewer.
 bool showsSurroundings(const Scene& scene) {
     for (const Material& m : scene.materials)
-        if ((m.gloss && m.gloss->roughness == 0) || (m.specular && m.specular->roughness == 0) || (m.conductor && m.conductor->roughness == 0))
+        if ((m.gloss && m.gloss->roughness == 0) || (m.specular && m.specular->roughness == 0) ||
+            (m.conductor && m.conductor->roughness == 0))
             return true;
     return false;
 }
 
 bool isPower(const Emitter& emitter) {
-    return emitter.amount && (emitter.amount->unit == AmountUnit::lumen || emitter.amount->unit == AmountUnit::watt);
+    return emitter.amount &&
+           (emitter.amount->unit == AmountUnit::lumen || emitter.amount->unit == AmountUnit::watt);
 }
 
-/// The same amount of equal-energy light. A radiometric amount, and a spectrum that counts as it stands, are spread evenly over
-/// the range that the spectrum has.
+/// The same amount of equal-energy light. A radiometric amount, and a spectrum that counts as it stands, are
+/// spread evenly over the range that the spectrum has.
 Emitter withConstantSpectrum(const Emitter& emitter) {
     Emitter e = emitter;
     const Curve& curve = emitter.spectrum.curve();
-    constexpr std::pair<double, double> visible{360, 830};  // nm; where neither spectrum nor amount names a range
-    const auto range = emitter.amount && emitter.amount->over ? *emitter.amount->over : curve.range().value_or(visible);
-    const double from = range.first, to = std::max(range.second, range.first + 1);  // a line has no width to spread over
+    constexpr std::pair<double, double> visible{360,
+                                                830};  // nm; where neither spectrum nor amount names a range
+    const auto range =
+        emitter.amount && emitter.amount->over ? *emitter.amount->over : curve.range().value_or(visible);
+    const double from = range.first,
+                 to = std::max(range.second, range.first + 1);  // a line has no width to spread over
     if (!emitter.amount) {
         const std::array<const Curve*, 1> product{&curve};
         e.scale = emitter.scale * integrate(product, from, to) / (to - from);
@@ -120,7 +137,8 @@ double absoluteFactor(const Emitter& emitter, const Detector& observer) {
     if (!emitter.amount) return emitter.scale;
     const Amount& amount = *emitter.amount;
     if (amount.value == 0) return 0;
-    const double total = isPhotometric(amount.unit) ? photometricIntegral(emitter, observer) : radiometricIntegral(emitter);
+    const double total =
+        isPhotometric(amount.unit) ? photometricIntegral(emitter, observer) : radiometricIntegral(emitter);
     if (!(total > 0))
         throw InputError(emitter.where, "spectrum '" + emitter.spectrum.text + "' has no " +
                                             (isPhotometric(amount.unit) ? "light that is seen" : "power") +
@@ -128,16 +146,19 @@ double absoluteFactor(const Emitter& emitter, const Detector& observer) {
     return amount.value / total;
 }
 
-std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view, const Detector& observer,
-                                    std::vector<sd_light>& lights, bool equalEnergy) {
+std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view,
+                                    const Detector& observer, std::vector<sd_light>& lights,
+                                    bool equalEnergy) {
     std::vector<LightGroup> groups;
     const auto add = [&](const Emitter& given, double unitFactor, sd_light l) {
         const Emitter emitter = equalEnergy ? withConstantSpectrum(given) : given;
         const double factor = unitFactor * absoluteFactor(emitter, observer);
         size_t group = 0;
-        while (group < groups.size() && groups[group].text != emitter.spectrum.text) ++group;
+        while (group < groups.size() && groups[group].text != emitter.spectrum.text)
+            ++group;
         if (group == groups.size()) groups.push_back({emitter.spectrum.curve(), 0, emitter.spectrum.text});
-        // The first light that shines sets the group's absolute spectrum, so that terms are of the image's own magnitude.
+        // The first light that shines sets the group's absolute spectrum, so that terms are of the image's
+        // own magnitude.
         if (groups[group].factor == 0) groups[group].factor = factor;
         l.group = static_cast<sd_uint>(group);
         l.scale = groups[group].factor == 0 ? 0.0f : static_cast<float>(factor / groups[group].factor);

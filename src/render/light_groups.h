@@ -1,4 +1,5 @@
-// Lights of one spectrum share their terms: a group is a spectrum, its lights differ in place and amount only.
+// Lights of one spectrum share their terms: a group is a spectrum, its lights differ in place and amount
+// only.
 #pragma once
 
 #include "scene/scene.h"
@@ -12,19 +13,20 @@ namespace spectrad {
 struct Detector;
 
 struct LightGroup {
-    Curve spectrum;     ///< as it stands
-    double factor = 1;  ///< spectrum × factor: irradiance per nm that a light of scale 1 gives (point: intensity, at 1 m)
-    std::string text;   ///< the spectrum as the user named it
+    Curve spectrum;  ///< as it stands
+    double factor =
+        1;  ///< spectrum × factor: irradiance per nm that a light of scale 1 gives (point: intensity, at 1 m)
+    std::string text;  ///< the spectrum as the user named it
 };
 
-/// Factor that makes the emitter's spectrum absolute, in the amount's own unit per nm: amount ÷ the spectrum's integral (a light's
-/// power is still to be divided by its solid angle). Throws InputError where the integral is zero, or does not exist (a constant
-/// without a range).
+/// Factor that makes the emitter's spectrum absolute, in the amount's own unit per nm: amount ÷ the
+/// spectrum's integral (a light's power is still to be divided by its solid angle). Throws InputError where
+/// the integral is zero, or does not exist (a constant without a range).
 [[nodiscard]] double absoluteFactor(const Emitter& emitter, const Detector& observer);
 
-/// Places the scene's lights for a view and groups them. Lights of no power are kept: they cost little and change nothing. Where
-/// no ambient light is, the background comes last, for mirrors to show. `equalEnergy`: every light has a constant spectrum of
-/// the same amount instead of its own.
+/// Places the scene's lights for a view and groups them. Lights of no power are kept: they cost little and
+/// change nothing. Where no ambient light is, the background comes last, for mirrors to show. `equalEnergy`:
+/// every light has a constant spectrum of the same amount instead of its own.
 [[nodiscard]] std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view,
                                                   const Detector& observer, std::vector<sd_light>& lights,
                                                   bool equalEnergy = false);

@@ -1,5 +1,5 @@
-// Materials as lobes: which reflectances depend on the angle (tables), which on the wavelength (terms), and how much of the light
-// each leaves to the next, so that nothing gains energy.
+// Materials as lobes: which reflectances depend on the angle (tables), which on the wavelength (terms), and
+// how much of the light each leaves to the next, so that nothing gains energy.
 #include "render/facets.h"
 #include "render/fluorescence.h"
 #include "render/fresnel.h"
@@ -18,8 +18,9 @@ namespace {
 
 constexpr double inversePi = 1 / std::numbers::pi;
 
-/// A coat whose optics depend on the wavelength through one number only (its index, or its reflectance at normal incidence) is
-/// evaluated at a few values of that number; at any other it is the polynomial through them.
+/// A coat whose optics depend on the wavelength through one number only (its index, or its reflectance at
+/// normal incidence) is evaluated at a few values of that number; at any other it is the polynomial through
+/// them.
 struct Nodes {
     std::vector<double> at;
     [[nodiscard]] double weight(size_t i, double value) const {
@@ -33,11 +34,13 @@ struct Nodes {
 Nodes nodesFor(const Curve& curve) {
     const auto [low, high] = curve.bounds();
     if (high - low <= 1e-9 * std::max(std::abs(high), 1e-30)) return {{0.5 * (low + high)}};
-    // Chebyshev nodes; four leave less than 1e-6 of the reflectance of any glass, and are exact for Schlick's polynomial squared.
+    // Chebyshev nodes; four leave less than 1e-6 of the reflectance of any glass, and are exact for Schlick's
+    // polynomial squared.
     constexpr int count = 4;
     Nodes nodes;
     for (int i = 0; i < count; ++i)
-        nodes.at.push_back(0.5 * (low + high) + 0.5 * (high - low) * std::cos(std::numbers::pi * (i + 0.5) / count));
+        nodes.at.push_back(0.5 * (low + high) +
+                           0.5 * (high - low) * std::cos(std::numbers::pi * (i + 0.5) / count));
     return nodes;
 }
 
@@ -82,8 +85,8 @@ void TermBuilder::addDiffuse(const Material& material) {
     addCoatedBase(material, one(), {}, 1, 0);
 }
 
-void TermBuilder::addCoatedBase(const Material& material, const Curve& weight, const AngleFunction& through, double meanThrough,
-                                double inside) {
+void TermBuilder::addCoatedBase(const Material& material, const Curve& weight, const AngleFunction& through,
+                                double meanThrough, double inside) {
     const bool coated = static_cast<bool>(through);
     const FluorescentBase base(material, inside, notes_);
     if (base.isBlack()) return;
@@ -97,9 +100,11 @@ void TermBuilder::addCoatedBase(const Material& material, const Curve& weight, c
         std::vector<Summand> sum;
         const Curve reflectance = base.reflectance();
         const std::vector<Curve> glow = base.reradiation(group.spectrum);
-        if (only_ != Only::fluorescence) sum.push_back({{&group.spectrum, &reflectance, &weight}, group.factor * scale});
+        if (only_ != Only::fluorescence)
+            sum.push_back({{&group.spectrum, &reflectance, &weight}, group.factor * scale});
         if (only_ != Only::reflection)
-            for (const Curve& curve : glow) sum.push_back({{&curve, &weight}, group.factor * scale});
+            for (const Curve& curve : glow)
+                sum.push_back({{&curve, &weight}, group.factor * scale});
         // A weight of a polynomial is signed by nature; without one only noise of a measured matrix is.
         addTerm(sum, &weight == &one());
     }
@@ -120,7 +125,8 @@ std::uint32_t TermBuilder::addTexture(const Material& material, std::vector<doub
     return static_cast<std::uint32_t>(world_.textures.size());
 }
 
-// With texels linear between their wavelengths, each of these is a term: light × hat of that wavelength, exact for any lamp.
+// With texels linear between their wavelengths, each of these is a term: light × hat of that wavelength,
+// exact for any lamp.
 void TermBuilder::addTextured(const Material& material) {
     if (only_ == Only::fluorescence) return;
     std::vector<double> nm;
@@ -146,15 +152,23 @@ void TermBuilder::addRough(const Material& material, const Curve& base) {
     if (only_ == Only::fluorescence) return;
     addGroupTerms(base, inversePi);
     const double mean = model.mean;
-    addGroupTerms(Curve::combined({base}, [mean](std::span<const double> v) { return v[0] * v[0] * mean / (1 - v[0] * (1 - mean)); }), inversePi);
+    addGroupTerms(Curve::combined({base},
+                                  [mean](std::span<const double> v) {
+                                      return v[0] * v[0] * mean / (1 - v[0] * (1 - mean));
+                                  }),
+                  inversePi);
     endLobe(lobe);
 }
 
-void TermBuilder::addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra, double alpha) {
+void TermBuilder::addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra,
+                            double alpha) {
     const FacetAlbedos facets = facetAlbedos(fresnel, alpha);
-    std::vector<std::vector<sd_piece>> tables{tabulate([&](double c) { return std::max(0.0, 1 - facets.white(c)); })};
-    for (const AngleFunction& f : facets.albedo) tables.push_back(tabulate(f));
-    for (const AngleFunction& f : fresnel) tables.push_back(tabulate(f));
+    std::vector<std::vector<sd_piece>> tables{
+        tabulate([&](double c) { return std::max(0.0, 1 - facets.white(c)); })};
+    for (const AngleFunction& f : facets.albedo)
+        tables.push_back(tabulate(f));
+    for (const AngleFunction& f : fresnel)
+        tables.push_back(tabulate(f));
     sd_lobe lobe = beginLobe(SD_LOBE_FACETS);
     lobe.table = addTables(tables);
     lobe.functions = static_cast<sd_uint>(fresnel.size());
@@ -162,14 +176,18 @@ void TermBuilder::addFacets(const std::vector<AngleFunction>& fresnel, const std
     lobe.alpha = static_cast<float>(alpha);
     const double missing = 1 - facets.whiteMean;
     lobe.multiple = static_cast<float>(missing > 1e-6 ? inversePi / missing : 0);
-    for (const Curve& spectrum : spectra) addGroupTerms(spectrum);
-    // Light that bounces between facets takes the metal's colour once more each time; its mean reflectance is the same sum.
+    for (const Curve& spectrum : spectra)
+        addGroupTerms(spectrum);
+    // Light that bounces between facets takes the metal's colour once more each time; its mean reflectance is
+    // the same sum.
     std::vector<double> means;
-    for (const AngleFunction& f : fresnel) means.push_back(cosineMean(f));
+    for (const AngleFunction& f : fresnel)
+        means.push_back(cosineMean(f));
     const double white = facets.whiteMean;
     addGroupTerms(Curve::combined(spectra, [means, white](std::span<const double> v) {
         double mean = 0;
-        for (size_t i = 0; i < means.size(); ++i) mean += means[i] * v[i];
+        for (size_t i = 0; i < means.size(); ++i)
+            mean += means[i] * v[i];
         return multipleScattering(std::clamp(mean, 0.0, 1.0), white);
     }));
     endLobe(lobe);
@@ -181,7 +199,8 @@ void TermBuilder::addGloss(const Material& material) {
     const double alpha = material.gloss->roughness * material.gloss->roughness;
     for (size_t i = 0; i < nodes.at.size(); ++i) {
         const double n = nodes.at[i];
-        const Curve polynomial = Curve::combined({ior}, [nodes, i](std::span<const double> v) { return nodes.weight(i, v[0]); });
+        const Curve polynomial =
+            Curve::combined({ior}, [nodes, i](std::span<const double> v) { return nodes.weight(i, v[0]); });
         const Curve& weight = nodes.at.size() == 1 ? one() : polynomial;
         const Coat coat = coatOf([n](double c) { return fresnelDielectric(c, n); }, alpha);
         // What a diffuse base sends up is let through as what comes down, per solid angle inside (n² of it):
@@ -190,8 +209,9 @@ void TermBuilder::addGloss(const Material& material) {
         addCoatedBase(material, weight, coat.through, coat.meanThrough, inside);
         if (only_ == Only::fluorescence) continue;
         sd_lobe lobe = beginLobe(SD_LOBE_FACETS);
-        lobe.table = addTables({tabulate([&](double c) { return std::max(0.0, 1 - coat.facets.white(c)); }), tabulate(coat.albedo),
-                                tabulate([n](double c) { return fresnelDielectric(c, n); })});
+        lobe.table =
+            addTables({tabulate([&](double c) { return std::max(0.0, 1 - coat.facets.white(c)); }),
+                       tabulate(coat.albedo), tabulate([n](double c) { return fresnelDielectric(c, n); })});
         lobe.functions = 1;
         lobe.multiple_to = 0;
         lobe.alpha = static_cast<float>(alpha);
@@ -207,13 +227,16 @@ void TermBuilder::addSpecular(const Material& material) {
     const double alpha = material.specular->roughness * material.specular->roughness;
     for (size_t i = 0; i < nodes.at.size(); ++i) {
         const double r = nodes.at[i];
-        const Curve polynomial = Curve::combined({r0}, [nodes, i](std::span<const double> v) { return nodes.weight(i, v[0]); });
+        const Curve polynomial =
+            Curve::combined({r0}, [nodes, i](std::span<const double> v) { return nodes.weight(i, v[0]); });
         const Curve& weight = nodes.at.size() == 1 ? one() : polynomial;
         const Coat coat = coatOf([r](double c) { return fresnelSchlick(c, r); }, alpha);
         addCoatedBase(material, weight, coat.through, coat.meanThrough, 0);
     }
     if (only_ == Only::fluorescence) return;
-    addFacets({[](double c) { return 1 - fresnelSchlick(c, 0); }, [](double c) { return fresnelSchlick(c, 0); }}, {r0, one()}, alpha);
+    addFacets(
+        {[](double c) { return 1 - fresnelSchlick(c, 0); }, [](double c) { return fresnelSchlick(c, 0); }},
+        {r0, one()}, alpha);
 }
 
 void TermBuilder::addConductor(const Material& material) {
@@ -224,21 +247,30 @@ void TermBuilder::addConductor(const Material& material) {
     if (only_ == Only::fluorescence) return;
     const FresnelBasis basis = metal.schlick ? schlickBasis(n, k) : conductorBasis(n, k, from, to);
     if (metal.schlick)
-        notes_.say(fmt::format("material '{}': Schlick's formula is off by up to {:.3f} in reflectance", material.name, schlickError(n, k, from, to)));
+        notes_.say(fmt::format("material '{}': Schlick's formula is off by up to {:.3f} in reflectance",
+                               material.name, schlickError(n, k, from, to)));
     if (!basis.angle.empty()) addFacets(basis.angle, basis.spectrum, alpha);
 }
 
 std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) {
-    const auto refuse = [&](const char* what) { throw InputError(material.where, "material '" + material.name + "': " + what); };
+    const auto refuse = [&](const char* what) {
+        throw InputError(material.where, "material '" + material.name + "': " + what);
+    };
     const bool textured = material.diffuse && material.diffuse->texture;
     if (textured && (material.gloss || material.specular)) refuse("texture= under a coat is not there yet");
     if (textured && !material.fluorescence.empty()) refuse("texture= beside <fluorescence> is not there yet");
-    if (material.conductor && (material.diffuse || material.gloss || material.specular || !material.fluorescence.empty()))
-        refuse("a <conductor> is opaque and bare: it goes with no <diffuse>, <gloss>, <specular> or <fluorescence>");
-    if (material.gloss && material.specular) refuse("<gloss> and <specular> both describe the surface: give one of them");
-    if (material.diffuse && material.diffuse->roughnessDegrees > 0 && (material.gloss || material.specular || !material.fluorescence.empty()))
+    if (material.conductor &&
+        (material.diffuse || material.gloss || material.specular || !material.fluorescence.empty()))
+        refuse(
+            "a <conductor> is opaque and bare: it goes with no <diffuse>, <gloss>, <specular> or "
+            "<fluorescence>");
+    if (material.gloss && material.specular)
+        refuse("<gloss> and <specular> both describe the surface: give one of them");
+    if (material.diffuse && material.diffuse->roughnessDegrees > 0 &&
+        (material.gloss || material.specular || !material.fluorescence.empty()))
         refuse("roughness= of <diffuse> goes with no coat and no fluorescence");
-    if (textured && material.diffuse->roughnessDegrees > 0) refuse("roughness= of <diffuse> beside texture= is not there yet");
+    if (textured && material.diffuse->roughnessDegrees > 0)
+        refuse("roughness= of <diffuse> beside texture= is not there yet");
 
     const std::uint32_t number = beginMaterial();
     if (material.emission && only_ == Only::everything) {

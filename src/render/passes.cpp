@@ -11,13 +11,15 @@
 
 namespace spectrad {
 
-PassTextures::PassTextures(const Scene& scene, const Library& library, const Device& device, RenderSettings settings, Notes& notes)
+PassTextures::PassTextures(const Scene& scene, const Library& library, const Device& device,
+                           RenderSettings settings, Notes& notes)
     : TextureLoader(scene, library, notes), device_(device), settings_(std::move(settings)) {}
 
 Cube PassTextures::renderPlain(const Pass& pass, Substitute substitute, bool oneBand) {
     RenderSettings settings;
     settings.pass = pass.name;
-    // Wavelengths and samples of the command line are for the whole render; a pass that states its own keeps them.
+    // Wavelengths and samples of the command line are for the whole render; a pass that states its own keeps
+    // them.
     if (!pass.wavelengths) settings.wavelengths = settings_.wavelengths;
     settings.projection = settings_.projection;
     if (!pass.samples) settings.samples = settings_.samples;
@@ -31,24 +33,29 @@ Cube PassTextures::renderPlain(const Pass& pass, Substitute substitute, bool one
     cube.info.projectionStated = true;
     Renderer renderer(device_, plan);
     renderer.render([&](int, int rows, const float* bands, const float*) {
-        cube.values.insert(cube.values.end(), bands, bands + static_cast<size_t>(rows) * plan.terms.bands * static_cast<size_t>(plan.view.width));
+        cube.values.insert(
+            cube.values.end(), bands,
+            bands + static_cast<size_t>(rows) * plan.terms.bands * static_cast<size_t>(plan.view.width));
     });
     return cube;
 }
 
 Cube PassTextures::render(const Pass& pass) {
     switch (pass.as) {
-        case PassKind::radiance: return renderPlain(pass, Substitute::none, false);
+        case PassKind::radiance:
+            return renderPlain(pass, Substitute::none, false);
         case PassKind::irradiance: {
             // What a white Lambertian surface sends back is the irradiance over π, lamp by lamp.
             Cube cube = renderPlain(pass, Substitute::whiteDiffuser, false);
-            for (float& value : cube.values) value *= std::numbers::pi_v<float>;
+            for (float& value : cube.values)
+                value *= std::numbers::pi_v<float>;
             cube.info.kind = CubeKind::irradiance;
             return cube;
         }
         case PassKind::transmittance:
             throw InputError(pass.where, "pass '" + pass.name + "': as=\"transmittance\" is not there yet");
-        case PassKind::reflectance: break;
+        case PassKind::reflectance:
+            break;
     }
     Cube cube = renderPlain(pass, Substitute::equalEnergy, false);
     const Cube white = renderPlain(pass, Substitute::whiteDiffuser, true);
@@ -61,7 +68,10 @@ Cube PassTextures::render(const Pass& pass) {
         for (size_t x = 0; x < width; ++x) {
             const double diffuser = white.row(row, 0)[x];
             if (!(diffuser > 0) && seen.row(row, 0)[x] > 0)
-                throw InputError(pass.where, fmt::format("pass '{}': no light arrives at pixel {},{}, so it has no reflectance", pass.name, x, row));
+                throw InputError(
+                    pass.where,
+                    fmt::format("pass '{}': no light arrives at pixel {},{}, so it has no reflectance",
+                                pass.name, x, row));
             if (!(diffuser > 0)) continue;
             for (size_t band = 0; band < bands; ++band) {
                 float& value = cube.values[(static_cast<size_t>(row) * bands + band) * width + x];
@@ -74,9 +84,11 @@ Cube PassTextures::render(const Pass& pass) {
 
 SpectralTexture PassTextures::loadPass(const Pass& pass, const TextureUse& use) {
     if (pass.as != PassKind::reflectance)
-        throw InputError(use.where, "pass '" + pass.name + "' is not as=\"reflectance\", so it cannot be a <diffuse> texture");
+        throw InputError(use.where, "pass '" + pass.name +
+                                        "' is not as=\"reflectance\", so it cannot be a <diffuse> texture");
     if (std::find(open_.begin(), open_.end(), pass.name) != open_.end())
-        throw InputError(use.where, fmt::format("passes need each other: {} -> {}", fmt::join(open_, " -> "), pass.name));
+        throw InputError(
+            use.where, fmt::format("passes need each other: {} -> {}", fmt::join(open_, " -> "), pass.name));
     auto found = done_.find(pass.name);
     if (found == done_.end()) {
         open_.push_back(pass.name);

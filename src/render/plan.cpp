@@ -27,7 +27,8 @@ struct Choice {
 template <typename Named>
 std::vector<std::string> namesOf(const std::vector<Named>& items) {
     std::vector<std::string> names;
-    for (const Named& item : items) names.push_back(item.name);
+    for (const Named& item : items)
+        names.push_back(item.name);
     return names;
 }
 
@@ -37,7 +38,8 @@ const Named& byName(const std::vector<Named>& items, const std::string& name, co
         if (item.name == name) return item;
     const auto names = namesOf(items);
     std::string known;
-    for (const std::string& n : names) known += (known.empty() ? "" : ", ") + n;
+    for (const std::string& n : names)
+        known += (known.empty() ? "" : ", ") + n;
     throw InputError(fmt::format("the scene has no {} '{}'{}{}", kind, name, didYouMean(name, names),
                                  known.empty() ? "" : " (there is: " + known + ")"));
 }
@@ -70,19 +72,24 @@ Affine placeOf(const Scene& scene, const FlatScene& flat, Index camera) {
     // A pass of a subtree may look with a camera outside it.
     for (const Placed& placed : flatten(scene).cameras)
         if (placed.index == camera) return placed.toWorld;
-    throw InputError(scene.cameras[camera].where, "camera '" + scene.cameras[camera].name + "' stands in no node of the scene");
+    throw InputError(scene.cameras[camera].where,
+                     "camera '" + scene.cameras[camera].name + "' stands in no node of the scene");
 }
 
 void checkSize(int width, int height) {
     if (width < 1 || height < 1 || width > maxSide || height > maxSide)
-        throw InputError(fmt::format("an image of {}x{} pixels is not possible (1…{} on a side)", width, height, maxSide));
+        throw InputError(
+            fmt::format("an image of {}x{} pixels is not possible (1…{} on a side)", width, height, maxSide));
 }
 
-std::vector<const Material*> materialsWorn(const Scene& scene, const FlatScene& flat, std::vector<std::uint32_t>& number) {
+std::vector<const Material*> materialsWorn(const Scene& scene, const FlatScene& flat,
+                                           std::vector<std::uint32_t>& number) {
     std::vector<bool> worn(scene.materials.size(), false);
     for (const FlatScene::Object& object : flat.objects) {
-        for (const ShapeUse& use : object.node->shapes) worn[use.material] = true;
-        for (const MeshUse& use : object.node->meshes) worn[use.material] = true;
+        for (const ShapeUse& use : object.node->shapes)
+            worn[use.material] = true;
+        for (const MeshUse& use : object.node->meshes)
+            worn[use.material] = true;
     }
     std::vector<const Material*> materials;
     number.assign(scene.materials.size(), 0);
@@ -111,12 +118,15 @@ Material substituted(const Material& material, Substitute substitute) {
         worn.emission.emplace();
         worn.emission->spectrum.curves = {Curve::constant(1)};
     } else if (!worn.fluorescence.empty()) {
-        throw InputError(material.where, "material '" + material.name + "' is fluorescent: what it sends out depends on the lamp, so no reflectance can carry it (as=\"radiance\" can)");
+        throw InputError(material.where, "material '" + material.name +
+                                             "' is fluorescent: what it sends out depends on the lamp, so no "
+                                             "reflectance can carry it (as=\"radiance\" can)");
     }
     return worn;
 }
 
-std::vector<std::string> featuresOf(const std::vector<const Material*>& materials, const World& world, bool background) {
+std::vector<std::string> featuresOf(const std::vector<const Material*>& materials, const World& world,
+                                    bool background) {
     std::set<std::string> features;
     for (const Material* m : materials) {
         if (m->diffuse) features.insert("diffuse");
@@ -129,7 +139,8 @@ std::vector<std::string> featuresOf(const std::vector<const Material*>& material
         if (m->diffuse && m->diffuse->roughnessDegrees > 0) features.insert("diffuse roughness");
     }
     for (const sd_light& light : world.lights) {
-        static constexpr std::array<const char*, 6> names{"", "point", "spot", "directional", "ambient", "background"};
+        static constexpr std::array<const char*, 6> names{"",        "point",     "spot", "directional",
+                                                          "ambient", "background"};
         features.insert(names[static_cast<size_t>(light.type)]);
     }
     if (background) features.insert("background");
@@ -140,7 +151,8 @@ std::vector<std::string> featuresOf(const std::vector<const Material*>& material
 std::vector<std::string> definesOf(const World& world, int samples) {
     std::set<std::string> defines{fmt::format("SLOTS={}", lanePattern(samples, 1).slots)};
     for (const sd_light& light : world.lights) {
-        static constexpr std::array<const char*, 6> switches{"", "HAS_POINT", "HAS_SPOT", "HAS_DIRECTIONAL", "HAS_UNIFORM", "HAS_UNIFORM"};
+        static constexpr std::array<const char*, 6> switches{
+            "", "HAS_POINT", "HAS_SPOT", "HAS_DIRECTIONAL", "HAS_UNIFORM", "HAS_UNIFORM"};
         defines.insert(switches[static_cast<size_t>(light.type)]);
     }
     for (const sd_lobe& lobe : world.lobes) {
@@ -159,7 +171,8 @@ Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library&
     return makePlan(scene, settings, library, textures, notes);
 }
 
-Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library, TextureLoader& textures, Notes& notes) {
+Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library,
+              TextureLoader& textures, Notes& notes) {
     const Choice choice = choose(scene, settings);
     Plan plan;
     plan.as = choice.pass ? choice.pass->as : PassKind::radiance;
@@ -167,13 +180,16 @@ Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library&
     plan.passName = choice.pass ? choice.pass->name : "";
     plan.stripBytes = settings.stripBytes;
 
-    plan.wavelengths = settings.wavelengths                                ? *settings.wavelengths
+    plan.wavelengths = settings.wavelengths                      ? *settings.wavelengths
                        : choice.pass && choice.pass->wavelengths ? *choice.pass->wavelengths
                                                                  : scene.wavelengths;
     if (settings.projection) plan.wavelengths.projection = *settings.projection;
-    plan.samples = settings.samples ? *settings.samples : choice.pass && choice.pass->samples ? *choice.pass->samples : 16;
+    plan.samples = settings.samples                      ? *settings.samples
+                   : choice.pass && choice.pass->samples ? *choice.pass->samples
+                                                         : 16;
     if (plan.samples < 1 || plan.samples > maxSamples)
-        throw InputError(fmt::format("{} samples per pixel are not possible (1…{})", plan.samples, maxSamples));
+        throw InputError(
+            fmt::format("{} samples per pixel are not possible (1…{})", plan.samples, maxSamples));
     std::pair<int, int> size{choice.camera->width, choice.camera->height};
     if (choice.pass && choice.pass->size) size = *choice.pass->size;
     if (settings.size) size = *settings.size;
@@ -200,10 +216,12 @@ Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library&
         plan.white = {1, 1, 1};
     }
     const double y = plan.white[1];
-    for (double& value : plan.white) value /= y;
+    for (double& value : plan.white)
+        value /= y;
 
     plan.groups = static_cast<std::uint32_t>(groups.size());
-    TermBuilder builder(plan.wavelengths, observer, std::move(groups), settings.only, textures, plan.world, plan.terms, notes);
+    TermBuilder builder(plan.wavelengths, observer, std::move(groups), settings.only, textures, plan.world,
+                        plan.terms, notes);
     const bool asGiven = settings.substitute == Substitute::none;
     const Emitter* background = asGiven && scene.background ? &*scene.background : nullptr;
     builder.addBackground(background, background ? absoluteFactor(*background, observer) : 0);

@@ -18,25 +18,26 @@ struct Plan {
     std::string cameraName, passName;
     View view;
     World world;
-    std::uint32_t groups = 0;           ///< of lights with one spectrum each
-    TermTable terms;                    ///< the spectra of all (light, lobe, material) terms on the output's bands
+    std::uint32_t groups = 0;  ///< of lights with one spectrum each
+    TermTable terms;           ///< the spectra of all (light, lobe, material) terms on the output's bands
     Wavelengths wavelengths;
     int samples = 16;
-    std::vector<std::string> features;  ///< elements and attributes that need something: "diffuse", "gloss", "point" …
-    std::vector<std::string> defines;   ///< -D switches of the kernels
-    std::uint64_t stripBytes = 0;       ///< asked for, or 0
-    std::string whiteName;              ///< the first light's spectrum as the user named it, or "E"
-    std::array<double, 3> white{};      ///< its XYZ at Y = 1 (CIE 1931)
-
+    std::vector<std::string>
+        features;  ///< elements and attributes that need something: "diffuse", "gloss", "point" …
+    std::vector<std::string> defines;  ///< -D switches of the kernels
+    std::uint64_t stripBytes = 0;      ///< asked for, or 0
+    std::string whiteName;             ///< the first light's spectrum as the user named it, or "E"
+    std::array<double, 3> white{};     ///< its XYZ at Y = 1 (CIE 1931)
 
     [[nodiscard]] size_t triangles() const { return world.index.size() / 3; }
     [[nodiscard]] size_t lights() const { return world.lights.size(); }
 };
 
 /// Throws InputError for what the scene asks and this version cannot do ("not yet"), and for limits exceeded.
-[[nodiscard]] Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library, Notes& notes);
-/// The same with textures from `textures`, which can render passes.
-[[nodiscard]] Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library, TextureLoader& textures,
+[[nodiscard]] Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library,
                             Notes& notes);
+/// The same with textures from `textures`, which can render passes.
+[[nodiscard]] Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library,
+                            TextureLoader& textures, Notes& notes);
 
 }  // namespace spectrad

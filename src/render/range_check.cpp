@@ -29,7 +29,8 @@ double shareOutside(const Curve& light, const Detector& observer, double from, d
 
 }  // namespace
 
-void checkRange(const Wavelengths& grid, const std::vector<LightGroup>& groups, const Detector& observer, Notes& notes) {
+void checkRange(const Wavelengths& grid, const std::vector<LightGroup>& groups, const Detector& observer,
+                Notes& notes) {
     // One band, or point samples far apart, are asked for by people who do not want a colour.
     if (grid.size() < 2) return;
     const double from = grid.nm.front(), to = grid.nm.back();
@@ -39,11 +40,14 @@ void checkRange(const Wavelengths& grid, const std::vector<LightGroup>& groups, 
         if (!(share > tolerated)) continue;
         double low = from, high = to;
         constexpr double step = 5, shortest = 360, longest = 830;  // nm, of the observer
-        while (low > shortest && shareOutside(group.spectrum, observer, low, longest) > tolerated / 2) low -= step;
-        while (high < longest && shareOutside(group.spectrum, observer, low, high) > tolerated) high += step;
-        notes.warn(fmt::format("'{}' sends {} % of an observer's response outside {}…{} nm; {}…{} nm would do", group.text,
-                               rounded(100 * share, 2), spectrad::shortest(from), spectrad::shortest(to),
-                               spectrad::shortest(std::max(low, shortest)), spectrad::shortest(std::min(high, longest))));
+        while (low > shortest && shareOutside(group.spectrum, observer, low, longest) > tolerated / 2)
+            low -= step;
+        while (high < longest && shareOutside(group.spectrum, observer, low, high) > tolerated)
+            high += step;
+        notes.warn(fmt::format(
+            "'{}' sends {} % of an observer's response outside {}…{} nm; {}…{} nm would do", group.text,
+            rounded(100 * share, 2), spectrad::shortest(from), spectrad::shortest(to),
+            spectrad::shortest(std::max(low, shortest)), spectrad::shortest(std::min(high, longest))));
     }
 }
 
@@ -52,9 +56,10 @@ void noteExtensions(const Wavelengths& grid, const std::vector<const Material*>&
         const auto range = spectrum.curve().range();
         if (!range || spectrum.curve().isConstant()) return;
         if (grid.nm.front() >= range->first && grid.nm.back() <= range->second) return;
-        notes.say(fmt::format("'{}' was measured from {} to {} nm: its end values are held for the rest of {}…{} nm",
-                              spectrum.text, shortest(range->first), shortest(range->second), shortest(grid.nm.front()),
-                              shortest(grid.nm.back())));
+        notes.say(fmt::format(
+            "'{}' was measured from {} to {} nm: its end values are held for the rest of {}…{} nm",
+            spectrum.text, shortest(range->first), shortest(range->second), shortest(grid.nm.front()),
+            shortest(grid.nm.back())));
     };
     for (const Material* material : materials) {
         if (material->diffuse && material->diffuse->reflectance) check(*material->diffuse->reflectance);

@@ -1,5 +1,5 @@
-// Strips of rows through the stages, in order: clear → cover (small, large, clipped triangles) → find materials → light →
-// expand. Buffers are made once and grow; nothing is as large as the image.
+// Strips of rows through the stages, in order: clear → cover (small, large, clipped triangles) → find
+// materials → light → expand. Buffers are made once and grow; nothing is as large as the image.
 #include "render/renderer.h"
 
 #include "render/memory_plan.h"
@@ -16,13 +16,18 @@ namespace spectrad {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds(Clock::time_point from) { return std::chrono::duration<double>(Clock::now() - from).count(); }
+double seconds(Clock::time_point from) {
+    return std::chrono::duration<double>(Clock::now() - from).count();
+}
 
 }  // namespace
 
 struct Renderer::Body {
     Body(const Device& d, const Plan& p)
-        : device(d), plan(p), lanes(lanePattern(p.samples, d.body().vectorWidth())), memory(planMemory(p, d.info(), lanes.slots)) {
+        : device(d),
+          plan(p),
+          lanes(lanePattern(p.samples, d.body().vectorWidth())),
+          memory(planMemory(p, d.info(), lanes.slots)) {
         const auto start = Clock::now();
         stages = std::make_unique<Stages>(device, plan, lanes);
         times.build = seconds(start);
@@ -42,9 +47,15 @@ struct Renderer::Body {
 
 Renderer::Renderer(const Device& device, const Plan& plan) : body_(std::make_unique<Body>(device, plan)) {}
 Renderer::~Renderer() = default;
-RenderTimes Renderer::times() const { return body_->times; }
-int Renderer::stripRows() const { return body_->memory.cubeRows; }
-std::uint64_t Renderer::bytesPerStrip() const { return body_->memory.bytes; }
+RenderTimes Renderer::times() const {
+    return body_->times;
+}
+int Renderer::stripRows() const {
+    return body_->memory.cubeRows;
+}
+std::uint64_t Renderer::bytesPerStrip() const {
+    return body_->memory.bytes;
+}
 
 void Renderer::render(const StripSink& sink, const Progress& progress) {
     const auto start = Clock::now();
@@ -57,7 +68,8 @@ void Renderer::render(const StripSink& sink, const Progress& progress) {
         if (!body.stages->light(row, count)) {
             // The term image of these rows is larger than the device gives in one piece: take fewer.
             if (rows <= 1)
-                throw MachineError(fmt::format("the terms of row {} do not fit into the device's memory", row));
+                throw MachineError(
+                    fmt::format("the terms of row {} do not fit into the device's memory", row));
             rows = std::max(1, rows / 2);
             continue;
         }
@@ -87,8 +99,10 @@ const float* tight(const float* padded, size_t lines, size_t pitch, size_t width
 
 void Renderer::Body::deliver(int firstRow, int rows, const StripSink& sink) {
     const auto pitch = static_cast<size_t>(stages->pitch()), width = static_cast<size_t>(plan.view.width);
-    const size_t cubeLines = static_cast<size_t>(rows) * plan.terms.bands, previewLines = static_cast<size_t>(rows) * 3;
-    const MappedFloats cubeMap(device, cube.buffer(), cubeLines * pitch), previewMap(device, preview.buffer(), previewLines * pitch);
+    const size_t cubeLines = static_cast<size_t>(rows) * plan.terms.bands,
+                 previewLines = static_cast<size_t>(rows) * 3;
+    const MappedFloats cubeMap(device, cube.buffer(), cubeLines * pitch),
+        previewMap(device, preview.buffer(), previewLines * pitch);
     sink(firstRow, rows, tight(cubeMap.data(), cubeLines, pitch, width, tightCube),
          tight(previewMap.data(), previewLines, pitch, width, tightPreview));
 }

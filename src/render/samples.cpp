@@ -25,7 +25,8 @@ SamplePattern samplePattern(int samples) {
         if (std::gcd(g, samples) == 1 && spread(samples, g) > spread(samples, generator)) generator = g;
     SamplePattern pattern;
     for (int k = 0; k < samples; ++k) {
-        // Cell centres (k + ½)/n in both directions: every row and every column of the n × n grid has one sample.
+        // Cell centres (k + ½)/n in both directions: every row and every column of the n × n grid has one
+        // sample.
         const int row = static_cast<int>(static_cast<long>(k) * generator % samples);
         pattern.x.push_back((2 * k + 1) * SD_SUBPIXEL / (2 * samples));
         pattern.y.push_back((2 * row + 1) * SD_SUBPIXEL / (2 * samples));
@@ -36,7 +37,8 @@ SamplePattern samplePattern(int samples) {
 LanePattern lanePattern(int samples, int vectorWidth) {
     const SamplePattern pattern = samplePattern(samples);
     LanePattern lanes;
-    while (lanes.slots < samples) lanes.slots *= 2;
+    while (lanes.slots < samples)
+        lanes.slots *= 2;
     for (int slot = 0; slot < lanes.slots; ++slot) {
         const auto sample = static_cast<size_t>(slot < samples ? slot : 0);
         lanes.slotX.push_back(pattern.x[sample]);

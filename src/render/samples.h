@@ -10,20 +10,20 @@ namespace spectrad {
 
 inline constexpr int maxSamples = 64;
 
-/// Offsets in SD_SUBPIXEL-ths of a pixel, 0…255, for 1…64 samples: a rank-1 lattice whose points are as far apart as such a
-/// lattice allows (seen as tiling the plane); one sample is the pixel's centre.
+/// Offsets in SD_SUBPIXEL-ths of a pixel, 0…255, for 1…64 samples: a rank-1 lattice whose points are as far
+/// apart as such a lattice allows (seen as tiling the plane); one sample is the pixel's centre.
 struct SamplePattern {
     std::vector<std::int32_t> x, y;
 };
 [[nodiscard]] SamplePattern samplePattern(int samples);
 
-/// The pattern as kernels want it: samples padded with the first one to `slots` (a power of two), then repeated over lanes
-/// [pixel][slot] up to max(slots, vectorWidth) entries.
+/// The pattern as kernels want it: samples padded with the first one to `slots` (a power of two), then
+/// repeated over lanes [pixel][slot] up to max(slots, vectorWidth) entries.
 struct LanePattern {
     int slots = 1;
-    std::vector<std::int32_t> slotX, slotY;    ///< `slots` entries
-    std::vector<std::int32_t> laneX, laneY;    ///< offsets from the first lane's pixel
-    std::vector<std::int32_t> used;            ///< −1 where the lane is a sample, 0 where it only fills a slot
+    std::vector<std::int32_t> slotX, slotY;  ///< `slots` entries
+    std::vector<std::int32_t> laneX, laneY;  ///< offsets from the first lane's pixel
+    std::vector<std::int32_t> used;  ///< −1 where the lane is a sample, 0 where it only fills a slot
 };
 [[nodiscard]] LanePattern lanePattern(int samples, int vectorWidth);
 

@@ -18,24 +18,25 @@ enum class Only { everything, reflection, fluorescence };
 /// What a pass that is not radiance is made of (docs/format.md, "Passes as reflectance").
 enum class Substitute {
     none,
-    equalEnergy,   ///< every light keeps place and amount but has a constant spectrum; nothing glows by itself
+    equalEnergy,  ///< every light keeps place and amount but has a constant spectrum; nothing glows by itself
     whiteDiffuser,  ///< that, and every surface a perfect white diffuser
     coverage        ///< every surface glows with radiance 1, whatever the light
 };
 
 struct RenderSettings {
-    std::optional<Wavelengths> wavelengths;       ///< instead of the scene's
-    std::optional<Projection> projection;         ///< instead of the wavelengths' own
-    std::optional<std::pair<int, int>> size;      ///< width, height in pixels
-    std::optional<int> samples;                   ///< per pixel, 1…64; 16 if nobody says
-    std::string camera, pass;                     ///< names; empty: the scene's choice (docs/format.md, "Passes")
+    std::optional<Wavelengths> wavelengths;   ///< instead of the scene's
+    std::optional<Projection> projection;     ///< instead of the wavelengths' own
+    std::optional<std::pair<int, int>> size;  ///< width, height in pixels
+    std::optional<int> samples;               ///< per pixel, 1…64; 16 if nobody says
+    std::string camera, pass;                 ///< names; empty: the scene's choice (docs/format.md, "Passes")
     Only only = Only::everything;
     Substitute substitute = Substitute::none;
-    std::uint64_t stripBytes = 0;                 ///< device memory a strip may take; 0: chosen from the device
+    std::uint64_t stripBytes = 0;  ///< device memory a strip may take; 0: chosen from the device
 };
 
 /// Rows of the finished image, top to bottom, without gaps: bands[(row * bands + band) * width + x] in
-/// W·m⁻²·sr⁻¹·nm⁻¹ and a linear Rec.709 preview[(row * 3 + channel) * width + x]. The memory is the renderer's.
+/// W·m⁻²·sr⁻¹·nm⁻¹ and a linear Rec.709 preview[(row * 3 + channel) * width + x]. The memory is the
+/// renderer's.
 using StripSink = std::function<void(int firstRow, int rows, const float* bands, const float* preview)>;
 /// Share done, 0…1.
 using Progress = std::function<void(double)>;

@@ -24,8 +24,10 @@ std::vector<std::uint32_t> spansOf(const std::vector<float>& spectra, size_t ban
     std::vector<std::uint32_t> spans;
     for (size_t from = 0; from < spectra.size(); from += bands) {
         std::uint32_t first = 0, end = static_cast<std::uint32_t>(bands);
-        while (end > first && spectra[from + end - 1] == 0) --end;
-        while (first < end && spectra[from + first] == 0) ++first;
+        while (end > first && spectra[from + end - 1] == 0)
+            --end;
+        while (first < end && spectra[from + first] == 0)
+            ++first;
         spans.push_back(first);
         spans.push_back(end);
     }
@@ -41,7 +43,8 @@ sd_frame makeFrame(const Plan& plan, const LanePattern& lanes) {
     frame.height = plan.view.height;
     frame.pitch = (frame.width + SD_BLOCK - 1) / SD_BLOCK * SD_BLOCK;
     frame.samples = plan.samples;
-    while ((2 << frame.tile_shift) * (2 << frame.tile_shift) * lanes.slots <= SD_TILE_SAMPLES) ++frame.tile_shift;
+    while ((2 << frame.tile_shift) * (2 << frame.tile_shift) * lanes.slots <= SD_TILE_SAMPLES)
+        ++frame.tile_shift;
     return frame;
 }
 
@@ -54,7 +57,8 @@ Stages::Stages(const Device& device, const Plan& plan, const LanePattern& lanes)
       triangles_(static_cast<std::uint32_t>(plan.triangles())),
       vertices_(static_cast<std::uint32_t>(plan.world.vertexDraw.size())),
       words_(static_cast<std::uint32_t>((plan.world.materials.size() + 31) / 32)),
-      geometry_(device, {"transform.cl", "clear.cl", "small.cl", "clip.cl", "tiles.cl"}, geometryDefines(plan, device)),
+      geometry_(device, {"transform.cl", "clear.cl", "small.cl", "clip.cl", "tiles.cl"},
+                geometryDefines(plan, device)),
       shading_(device, {"materials.cl", "light.cl", "expand.cl"}, withDevice(plan.defines, device)),
       transform_(geometry_.kernel("transform")),
       clear_(geometry_.kernel("clear_keys")),
@@ -128,21 +132,24 @@ void Stages::transform() {
 std::uint32_t Stages::readNumber(const cl::Buffer& buffer, size_t index) {
     std::uint32_t number = 0;
     checked(device_.body(), "reading a count", [&] {
-        device_.body().queue.enqueueReadBuffer(buffer, CL_TRUE, index * sizeof number, sizeof number, &number);
+        device_.body().queue.enqueueReadBuffer(buffer, CL_TRUE, index * sizeof number, sizeof number,
+                                               &number);
     });
     return number;
 }
 
 void Stages::zero(const cl::Buffer& buffer, size_t words) {
-    checked(device_.body(), "clearing counts", [&] {
-        device_.body().queue.enqueueFillBuffer(buffer, cl_uint{0}, 0, words * sizeof(cl_uint));
-    });
+    checked(device_.body(), "clearing counts",
+            [&] { device_.body().queue.enqueueFillBuffer(buffer, cl_uint{0}, 0, words * sizeof(cl_uint)); });
 }
 
 void Stages::cover() {
-    const size_t keyCount = static_cast<size_t>(frame_.rows) * static_cast<size_t>(frame_.pitch) * (slotX_.capacity());
+    const size_t keyCount =
+        static_cast<size_t>(frame_.rows) * static_cast<size_t>(frame_.pitch) * (slotX_.capacity());
     keys_.reserve(device_, keyCount, "the samples of a strip");
-    clear_.set("keys", keys_.buffer()).set("count", static_cast<cl_ulong>(keyCount)).run((keyCount + 15) / 16, 64);
+    clear_.set("keys", keys_.buffer())
+        .set("count", static_cast<cl_ulong>(keyCount))
+        .run((keyCount + 15) / 16, 64);
     if (triangles_ == 0) return;
     zero(counters_.buffer(), 4);
     small_.set("index", index_.buffer())
@@ -156,7 +163,8 @@ void Stages::cover() {
         .set("clip", clipList_.buffer())
         .set("counters", counters_.buffer())
         .run(triangles_, 64);
-    const std::uint32_t large = readNumber(counters_.buffer(), 0), clipped = readNumber(counters_.buffer(), 1);
+    const std::uint32_t large = readNumber(counters_.buffer(), 0),
+                        clipped = readNumber(counters_.buffer(), 1);
     if (large + clipped > 0) coverLarge(large, clipped);
 }
 
@@ -238,7 +246,10 @@ bool Stages::light(int firstRow, int rows) {
         .set("sets", sets_.buffer())
         .set("block_terms", blockTerms_.buffer())
         .run(image_.blocks, 16);
-    scanTerms_.set("numbers", blockTerms_.buffer()).set("count", image_.blocks).set("sums", image_.first.buffer()).run(1);
+    scanTerms_.set("numbers", blockTerms_.buffer())
+        .set("count", image_.blocks)
+        .set("sums", image_.first.buffer())
+        .run(1);
     const size_t terms = readNumber(image_.first.buffer(), image_.blocks);
     if (terms * SD_BLOCK * sizeof(float) > device_.info().maxAllocationBytes) return false;
     image_.term.reserve(device_, terms, "the term image");
@@ -283,8 +294,8 @@ void Stages::expand(int from, int rows, DeviceArray<float>& cube, DeviceArray<fl
     const auto rowBlocks = static_cast<std::uint32_t>(frame_.pitch / SD_BLOCK);
     const std::uint32_t blocks = rowBlocks * static_cast<std::uint32_t>(rows);
     const bool scalar = device_.body().vectorWidth() == 1;
-    const auto run = [&](const DeviceArray<float>& spectra, const DeviceArray<std::uint32_t>& spans, size_t bands,
-                         DeviceArray<float>& out, const char* what) {
+    const auto run = [&](const DeviceArray<float>& spectra, const DeviceArray<std::uint32_t>& spans,
+                         size_t bands, DeviceArray<float>& out, const char* what) {
         out.reserve(device_, lines * bands * pitch, what);
         expand_.set("g", image_.g.buffer())
             .set("block_first", image_.first.buffer())
@@ -302,7 +313,8 @@ void Stages::expand(int from, int rows, DeviceArray<float>& cube, DeviceArray<fl
     run(previewSpectra_, previewSpans_, 3, preview, "a strip of the preview");
 }
 
-MappedFloats::MappedFloats(const Device& device, const cl::Buffer& buffer, size_t count) : device_(device), buffer_(buffer) {
+MappedFloats::MappedFloats(const Device& device, const cl::Buffer& buffer, size_t count)
+    : device_(device), buffer_(buffer) {
     data_ = static_cast<float*>(checked(device_.body(), "mapping a strip", [&] {
         return device_.body().queue.enqueueMapBuffer(buffer_, CL_TRUE, CL_MAP_READ, 0, count * sizeof(float));
     }));

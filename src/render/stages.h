@@ -1,5 +1,5 @@
-// The stages on the device, one method each, over buffers that stay. Order: transform once, then for each strip light (coverage
-// and g: the term image) and expand (g · c).
+// The stages on the device, one method each, over buffers that stay. Order: transform once, then for each
+// strip light (coverage and g: the term image) and expand (g · c).
 #pragma once
 
 #include "opencl/program.h"
@@ -10,13 +10,15 @@
 
 namespace spectrad {
 
-/// The term image of a strip on the device: blocks of SD_BLOCK pixels, each with its list of terms and their g.
+/// The term image of a strip on the device: blocks of SD_BLOCK pixels, each with its list of terms and their
+/// g.
 struct TermImage {
     int firstRow = 0, rows = 0;
     std::uint32_t blocks = 0;
-    DeviceArray<std::uint32_t> first;  ///< blocks + 1: where a block's terms start, in `term`; times SD_BLOCK, in `g`
-    DeviceArray<std::uint32_t> term;   ///< numbers into the term table
-    DeviceArray<float> g;              ///< SD_BLOCK a term
+    DeviceArray<std::uint32_t>
+        first;  ///< blocks + 1: where a block's terms start, in `term`; times SD_BLOCK, in `g`
+    DeviceArray<std::uint32_t> term;  ///< numbers into the term table
+    DeviceArray<float> g;             ///< SD_BLOCK a term
 };
 
 class Stages {
@@ -50,7 +52,8 @@ class Stages {
     Kernel transform_, clear_, small_, setup_, clip_, count_, scan_, deal_, tiles_;
     Kernel find_, scanTerms_, list_, light_, expand_;
 
-    DeviceArray<float> position_, normal_, camera_, cameraNormal_, coordinates_, texels_, spectra_, previewSpectra_;
+    DeviceArray<float> position_, normal_, camera_, cameraNormal_, coordinates_, texels_, spectra_,
+        previewSpectra_;
     DeviceArray<std::uint32_t> vertexDraw_, index_, triangleMaterial_;
     DeviceArray<sd_draw> draws_;
     DeviceArray<sd_vertex> screen_;
@@ -63,7 +66,8 @@ class Stages {
     DeviceArray<std::int32_t> slotX_, slotY_, laneX_, laneY_, used_;
 
     DeviceArray<std::uint64_t> keys_;
-    DeviceArray<std::uint32_t> largeList_, clipList_, counters_, tileCounts_, tileFirst_, tileList_, sets_, blockTerms_;
+    DeviceArray<std::uint32_t> largeList_, clipList_, counters_, tileCounts_, tileFirst_, tileList_, sets_,
+        blockTerms_;
     DeviceArray<sd_large> records_;
     TermImage image_;
 };

@@ -1,4 +1,5 @@
-// The spectra of terms: light × lobe of a material, on the output's bands and for the preview. The table has no position in it.
+// The spectra of terms: light × lobe of a material, on the output's bands and for the preview. The table has
+// no position in it.
 #pragma once
 
 #include "render/angle_table.h"
@@ -17,7 +18,8 @@ namespace spectrad {
 
 struct Detector;
 
-/// c of L(x, λ) = Σ g(x) c(λ). Unit of c times unit of g is W·m⁻²·sr⁻¹·nm⁻¹ (g: 1, or 1/m² under point lights).
+/// c of L(x, λ) = Σ g(x) c(λ). Unit of c times unit of g is W·m⁻²·sr⁻¹·nm⁻¹ (g: 1, or 1/m² under point
+/// lights).
 struct TermTable {
     size_t bands = 0;
     std::vector<float> spectra;  ///< [term][band]
@@ -31,16 +33,17 @@ struct Summand {
     double factor = 1;
 };
 
-/// Appends materials' lobes to a world and the lobes' terms to a table. The order of terms is [lobe][function][light group].
+/// Appends materials' lobes to a world and the lobes' terms to a table. The order of terms is
+/// [lobe][function][light group].
 class TermBuilder {
   public:
-    TermBuilder(const Wavelengths& grid, const Detector& observer, std::vector<LightGroup> groups, Only only, TextureLoader& textures,
-                World& world, TermTable& terms, Notes& notes);
+    TermBuilder(const Wavelengths& grid, const Detector& observer, std::vector<LightGroup> groups, Only only,
+                TextureLoader& textures, World& world, TermTable& terms, Notes& notes);
 
     /// Material 0 of the world; without a background it has no terms.
     void addBackground(const Emitter* background, double factor);
-    /// Returns the world's number of the material. Throws InputError for combinations that have no meaning, and for what is not
-    /// there yet.
+    /// Returns the world's number of the material. Throws InputError for combinations that have no meaning,
+    /// and for what is not there yet.
     std::uint32_t add(const Material& material, double emissionFactor);
 
     [[nodiscard]] const std::vector<LightGroup>& groups() const { return groups_; }
@@ -64,8 +67,10 @@ class TermBuilder {
     /// The material's texture in the world, or 0; its wavelengths in `nm`.
     std::uint32_t addTexture(const Material& material, std::vector<double>& nm);
     /// Diffuse base under a coat, its terms weighted by `weight` (one factor of the spectrum).
-    void addCoatedBase(const Material& material, const Curve& weight, const AngleFunction& through, double meanThrough, double inside);
-    void addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra, double alpha);
+    void addCoatedBase(const Material& material, const Curve& weight, const AngleFunction& through,
+                       double meanThrough, double inside);
+    void addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra,
+                   double alpha);
 
     const Wavelengths& grid_;
     const Detector& observer_;

@@ -17,7 +17,9 @@ namespace spectrad {
 SpectralTexture textureFrom(const Cube& cube, const std::string& name, Notes& notes) {
     const CubeInfo& info = cube.info;
     if (info.kind != CubeKind::reflectance)
-        throw InputError(name + ": a <diffuse> texture must hold reflectances (channels T.…, or a pass with as=\"reflectance\")");
+        throw InputError(
+            name +
+            ": a <diffuse> texture must hold reflectances (channels T.…, or a pass with as=\"reflectance\")");
     const Wavelengths& grid = info.wavelengths;
     const size_t bands = grid.size(), width = static_cast<size_t>(info.width);
     SpectralTexture texture;
@@ -29,7 +31,8 @@ SpectralTexture textureFrom(const Cube& cube, const std::string& name, Notes& no
     size_t clipped = 0;
     for (int row = 0; row < info.height; ++row) {
         for (size_t x = 0; x < width; ++x) {
-            for (size_t band = 0; band < bands; ++band) values[band] = cube.row(row, band)[x];
+            for (size_t band = 0; band < bands; ++band)
+                values[band] = cube.row(row, band)[x];
             const std::vector<double> nodes = nodalValues(grid, values);
             float* texel = texture.texels.data() + (static_cast<size_t>(row) * width + x) * bands;
             for (size_t band = 0; band < bands; ++band) {
@@ -39,7 +42,8 @@ SpectralTexture textureFrom(const Cube& cube, const std::string& name, Notes& no
         }
     }
     if (clipped > 0)
-        notes.say(fmt::format("{}: {} of {} reflectances came out below zero between the bands: set to zero", name, clipped, cube.values.size()));
+        notes.say(fmt::format("{}: {} of {} reflectances came out below zero between the bands: set to zero",
+                              name, clipped, cube.values.size()));
     return texture;
 }
 
@@ -57,12 +61,15 @@ SpectralTexture textureFromPicture(const std::string& file, const Library& libra
     };
     for (size_t i = 0; i < picture.pixels.size(); i += static_cast<size_t>(picture.channels)) {
         const std::uint8_t* p = picture.pixels.data() + i;
-        const std::array<std::uint8_t, 3> rgb = picture.channels < 3 ? std::array<std::uint8_t, 3>{p[0], p[0], p[0]} : std::array<std::uint8_t, 3>{p[0], p[1], p[2]};
+        const std::array<std::uint8_t, 3> rgb = picture.channels < 3
+                                                    ? std::array<std::uint8_t, 3>{p[0], p[0], p[0]}
+                                                    : std::array<std::uint8_t, 3>{p[0], p[1], p[2]};
         auto found = known.find(rgb);
         if (found == known.end()) {
             const LiftedColour colour = lift.fit({linear(rgb[0]), linear(rgb[1]), linear(rgb[2])});
             std::vector<float> curve;
-            for (double nm : texture.nm) curve.push_back(static_cast<float>(colour.at(nm)));
+            for (double nm : texture.nm)
+                curve.push_back(static_cast<float>(colour.at(nm)));
             found = known.emplace(rgb, std::move(curve)).first;
         }
         texture.texels.insert(texture.texels.end(), found->second.begin(), found->second.end());

@@ -18,16 +18,19 @@ struct SpectralTexture {
     std::vector<float> texels;  ///< [(row * width + column) * bands + band], row 0 on top
 };
 
-/// A cube of reflectances as a texture: slit averages become the nodal values of the curve that has them, held at or above zero.
-/// Throws InputError for a cube of another kind (only radiance carries fluorescence; only a reflectance takes a lamp).
+/// A cube of reflectances as a texture: slit averages become the nodal values of the curve that has them,
+/// held at or above zero. Throws InputError for a cube of another kind (only radiance carries fluorescence;
+/// only a reflectance takes a lamp).
 [[nodiscard]] SpectralTexture textureFrom(const Cube& cube, const std::string& name, Notes& notes);
-/// An RGB picture (PNG, sRGB), each colour lifted to a smooth reflectance (see lift.h), on wavelengths 380:780:10.
+/// An RGB picture (PNG, sRGB), each colour lifted to a smooth reflectance (see lift.h), on wavelengths
+/// 380:780:10.
 [[nodiscard]] SpectralTexture textureFromPicture(const std::string& file, const Library& library);
 
 /// Where textures come from: files here, passes by whoever can render them.
 class TextureLoader {
   public:
-    TextureLoader(const Scene& scene, const Library& library, Notes& notes) : scene_(scene), library_(library), notes_(notes) {}
+    TextureLoader(const Scene& scene, const Library& library, Notes& notes)
+        : scene_(scene), library_(library), notes_(notes) {}
     virtual ~TextureLoader() = default;
     TextureLoader(const TextureLoader&) = delete;
     TextureLoader& operator=(const TextureLoader&) = delete;

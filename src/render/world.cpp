@@ -33,11 +33,13 @@ constexpr size_t most = 0xfffffffe;
 /// Largest factor by which the transform stretches a length.
 double stretch(const Affine& a) {
     double largest = 0;
-    for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) largest = std::max(largest, length(a.direction(axis)));
+    for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+        largest = std::max(largest, length(a.direction(axis)));
     return largest;
 }
 
-/// How far a shape's mesh may lie from its true surface, in the shape's units: a tenth of a pixel where it is nearest.
+/// How far a shape's mesh may lie from its true surface, in the shape's units: a tenth of a pixel where it is
+/// nearest.
 double tolerance(const Shape& shape, const Affine& toWorld, const View& view) {
     const double scale = stretch(toWorld), radius = boundingRadius(shape);
     double pixel = 1 / view.pixelsPerSlope;  // orthographic: metres; perspective: metres at a depth of 1 m
@@ -52,20 +54,24 @@ void addDraw(World& world, const Affine& toWorld, const View& view) {
     const Affine to = view.worldToCamera * toWorld;
     sd_draw draw{};
     std::copy(to.m.begin(), to.m.end(), draw.to_camera);
-    // Cofactors take normals along; their sign follows the determinant's, so mirrored objects keep their outside. Scaled to
-    // stay in float's range whatever the lengths.
+    // Cofactors take normals along; their sign follows the determinant's, so mirrored objects keep their
+    // outside. Scaled to stay in float's range whatever the lengths.
     const auto& m = to.m;
-    const std::array<double, 9> cofactor{m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
-                                         m[2] * m[9] - m[1] * m[10], m[0] * m[10] - m[2] * m[8], m[1] * m[8] - m[0] * m[9],
-                                         m[1] * m[6] - m[2] * m[5], m[2] * m[4] - m[0] * m[6], m[0] * m[5] - m[1] * m[4]};
+    const std::array<double, 9> cofactor{
+        m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
+        m[2] * m[9] - m[1] * m[10], m[0] * m[10] - m[2] * m[8], m[1] * m[8] - m[0] * m[9],
+        m[1] * m[6] - m[2] * m[5],  m[2] * m[4] - m[0] * m[6],  m[0] * m[5] - m[1] * m[4]};
     double largest = 0;
-    for (double c : cofactor) largest = std::max(largest, std::abs(c));
+    for (double c : cofactor)
+        largest = std::max(largest, std::abs(c));
     const double scale = (to.determinant() < 0 ? -1 : 1) / (largest > 0 ? largest : 1);
-    for (size_t i = 0; i < 9; ++i) draw.normal[i] = static_cast<float>(cofactor[i] * scale);
+    for (size_t i = 0; i < 9; ++i)
+        draw.normal[i] = static_cast<float>(cofactor[i] * scale);
     world.draws.push_back(draw);
 }
 
-void addMesh(World& world, const Mesh& mesh, const Affine& toWorld, const View& view, std::uint32_t material) {
+void addMesh(World& world, const Mesh& mesh, const Affine& toWorld, const View& view,
+             std::uint32_t material) {
     if (mesh.index.empty()) return;
     const size_t first = world.vertexDraw.size();
     if (first + mesh.position.size() > most || world.index.size() / 3 + mesh.triangles() > most)
@@ -78,26 +84,31 @@ void addMesh(World& world, const Mesh& mesh, const Affine& toWorld, const View& 
         smoothed = withNormals(mesh, Normals::smooth);
         source = &smoothed;
     }
-    for (const auto& p : source->position) world.position.insert(world.position.end(), p.begin(), p.end());
-    for (const auto& n : source->normal) world.normal.insert(world.normal.end(), n.begin(), n.end());
+    for (const auto& p : source->position)
+        world.position.insert(world.position.end(), p.begin(), p.end());
+    for (const auto& n : source->normal)
+        world.normal.insert(world.normal.end(), n.begin(), n.end());
     if (!world.textures.empty()) {
         // A mesh without coordinates shows the texture's lower left corner everywhere.
         if (source->uv.empty()) world.uv.insert(world.uv.end(), 2 * source->position.size(), 0.0f);
-        for (const auto& t : source->uv) world.uv.insert(world.uv.end(), t.begin(), t.end());
+        for (const auto& t : source->uv)
+            world.uv.insert(world.uv.end(), t.begin(), t.end());
     }
     world.vertexDraw.insert(world.vertexDraw.end(), source->position.size(), draw);
     world.index.reserve(world.index.size() + source->index.size());
-    for (std::uint32_t i : source->index) world.index.push_back(static_cast<std::uint32_t>(first) + i);
+    for (std::uint32_t i : source->index)
+        world.index.push_back(static_cast<std::uint32_t>(first) + i);
     world.triangleMaterial.insert(world.triangleMaterial.end(), source->triangles(), material);
 }
 
 }  // namespace
 
-void addGeometry(World& world, const FlatScene& scene, const View& view, const std::vector<std::uint32_t>& materialNumber) {
+void addGeometry(World& world, const FlatScene& scene, const View& view,
+                 const std::vector<std::uint32_t>& materialNumber) {
     for (const FlatScene::Object& object : scene.objects) {
         for (const ShapeUse& use : object.node->shapes)
-            addMesh(world, tessellate(use.shape, tolerance(use.shape, object.toWorld, view)), object.toWorld, view,
-                    materialNumber[use.material]);
+            addMesh(world, tessellate(use.shape, tolerance(use.shape, object.toWorld, view)), object.toWorld,
+                    view, materialNumber[use.material]);
         for (const MeshUse& use : object.node->meshes)
             addMesh(world, *use.mesh, object.toWorld, view, materialNumber[use.material]);
     }

@@ -1,4 +1,5 @@
-// The spectra that ship with the program: folders of text files below spectra/, named by path without extension.
+// The spectra that ship with the program: folders of text files below spectra/, named by path without
+// extension.
 #pragma once
 
 #include "spectrum/spectrum.h"
@@ -12,7 +13,8 @@ namespace spectrad {
 
 /// One line of `spectrad info --list`.
 struct LibraryEntry {
-    std::string name;  ///< "illuminants/D65"; a column of a chart is an entry of its own: "charts/colorchecker/dark-skin"
+    std::string name;  ///< "illuminants/D65"; a column of a chart is an entry of its own:
+                       ///< "charts/colorchecker/dark-skin"
     Quantity quantity = Quantity::unknown;
     std::string unit, title, source, licence;
     bool relative = false;
@@ -24,12 +26,14 @@ struct LibraryEntry {
 
 class Library {
   public:
-    /// The folder: $SPECTRAD_SPECTRA, else share/spectrad/spectra beside the program's folder, else spectra/ of the source tree.
+    /// The folder: $SPECTRAD_SPECTRA, else share/spectrad/spectra beside the program's folder, else spectra/
+    /// of the source tree.
     static Library open();
     explicit Library(std::filesystem::path folder);
 
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-    /// The spectrum of that name, or nothing if there is none. Case counts. Throws InputError if its file is damaged.
+    /// The spectrum of that name, or nothing if there is none. Case counts. Throws InputError if its file is
+    /// damaged.
     [[nodiscard]] std::optional<Spectrum> find(std::string_view name) const;
     /// All entries, sorted by name; reads the heads of all files.
     [[nodiscard]] std::vector<LibraryEntry> list() const;

@@ -22,7 +22,8 @@ std::vector<T> read(const Device& device, const cl::Buffer& buffer, size_t count
 size_t differences(const std::vector<float>& a, const std::vector<float>& b) {
     REQUIRE(a.size() == b.size());
     size_t count = 0;
-    for (size_t i = 0; i < a.size(); ++i) count += std::memcmp(&a[i], &b[i], sizeof(float)) != 0;
+    for (size_t i = 0; i < a.size(); ++i)
+        count += std::memcmp(&a[i], &b[i], sizeof(float)) != 0;
     return count;
 }
 
@@ -44,7 +45,10 @@ void compare(const Device& device, const Plan& plan) {
     for (int row = 0; row < height; ++row) {
         for (int x = 0; x < frame.width; ++x) {
             for (size_t slot = 0; slot < lanes.slotX.size(); ++slot) {
-                const size_t i = (static_cast<size_t>(row) * static_cast<size_t>(frame.pitch) + static_cast<size_t>(x)) * lanes.slotX.size() + slot;
+                const size_t i =
+                    (static_cast<size_t>(row) * static_cast<size_t>(frame.pitch) + static_cast<size_t>(x)) *
+                        lanes.slotX.size() +
+                    slot;
                 wrongKeys += keys[i] != expected[i];
                 covered += expected[i] != ~std::uint64_t{0};
             }
@@ -57,7 +61,8 @@ void compare(const Device& device, const Plan& plan) {
     DeviceArray<float> cube, preview;
     stages.expand(0, height, cube, preview);
     const auto pitch = static_cast<size_t>(frame.pitch);
-    const std::vector<float> rows = read<float>(device, cube.buffer(), static_cast<size_t>(height) * bands * pitch);
+    const std::vector<float> rows =
+        read<float>(device, cube.buffer(), static_cast<size_t>(height) * bands * pitch);
     const int blocksX = frame.pitch / SD_BLOCK;
     const auto first = read<std::uint32_t>(device, stages.terms().first.buffer(), stages.terms().blocks + 1);
     const auto term = read<std::uint32_t>(device, stages.terms().term.buffer(), first.back());
@@ -66,15 +71,18 @@ void compare(const Device& device, const Plan& plan) {
     for (int row = 0; row < height; ++row) {
         for (int column = 0; column < blocksX; ++column) {
             const size_t number = static_cast<size_t>(row * blocksX + column);
-            const twin::Block block = twin::light(plan, vertices, frame, lanes, keys, row, column, vectorWidth);
-            const std::vector<std::uint32_t> ours(term.begin() + first[number], term.begin() + first[number + 1]);
+            const twin::Block block =
+                twin::light(plan, vertices, frame, lanes, keys, row, column, vectorWidth);
+            const std::vector<std::uint32_t> ours(term.begin() + first[number],
+                                                  term.begin() + first[number + 1]);
             wrongTerms += ours != block.term;
             if (ours != block.term) continue;
             const auto from = g.begin() + static_cast<std::ptrdiff_t>(size_t{first[number]} * SD_BLOCK);
             wrongG += differences({from, from + static_cast<std::ptrdiff_t>(block.g.size())}, block.g);
             const std::vector<float> out = twin::expand(block, plan.terms.spectra, bands);
             for (size_t band = 0; band < bands; ++band)
-                wrongBands += std::memcmp(rows.data() + (static_cast<size_t>(row) * bands + band) * pitch + static_cast<size_t>(column) * SD_BLOCK,
+                wrongBands += std::memcmp(rows.data() + (static_cast<size_t>(row) * bands + band) * pitch +
+                                              static_cast<size_t>(column) * SD_BLOCK,
                                           out.data() + band * SD_BLOCK, SD_BLOCK * sizeof(float)) != 0;
         }
     }
@@ -120,7 +128,9 @@ TEST_CASE("two runs give the same bytes") {
         REQUIRE(stages.light(0, plan.view.height));
         DeviceArray<float> cube, preview;
         stages.expand(0, plan.view.height, cube, preview);
-        results.push_back(read<float>(device, cube.buffer(), static_cast<size_t>(plan.view.height) * plan.terms.bands * static_cast<size_t>(stages.pitch())));
+        results.push_back(read<float>(
+            device, cube.buffer(),
+            static_cast<size_t>(plan.view.height) * plan.terms.bands * static_cast<size_t>(stages.pitch())));
     }
     CHECK(differences(results[0], results[1]) == 0);
 }
@@ -133,16 +143,21 @@ TEST_CASE("structs have the same layout on host and device") {
     out.reserve(device, 16, "the probe");
     probe.set("out", out.buffer()).run(1);
     const auto sizes = read<std::uint32_t>(device, out.buffer(), 13);
-    const std::vector<std::uint32_t> expected{
-        sizeof(sd_frame),    offsetof(sd_frame, tiles_y), sizeof(sd_draw),     offsetof(sd_draw, normal),
-        sizeof(sd_vertex),   sizeof(sd_large),            offsetof(sd_large, key), sizeof(sd_light),
-        offsetof(sd_light, group), sizeof(sd_lobe),       sizeof(sd_piece),   sizeof(sd_material), sizeof(sd_texture)};
+    const std::vector<std::uint32_t> expected{sizeof(sd_frame),          offsetof(sd_frame, tiles_y),
+                                              sizeof(sd_draw),           offsetof(sd_draw, normal),
+                                              sizeof(sd_vertex),         sizeof(sd_large),
+                                              offsetof(sd_large, key),   sizeof(sd_light),
+                                              offsetof(sd_light, group), sizeof(sd_lobe),
+                                              sizeof(sd_piece),          sizeof(sd_material),
+                                              sizeof(sd_texture)};
     CHECK(sizes == expected);
 }
 
-// The least that passes through every stage: what a simulator that checks each access can do in a minute (tests/oclgrind).
+// The least that passes through every stage: what a simulator that checks each access can do in a minute
+// (tests/oclgrind).
 TEST_CASE("a tiny image agrees with the scalar twins", "[oclgrind]") {
     const Device device = Device::open(std::nullopt);
-    for (int samples : {1, 4}) compare(device, randomPlan(static_cast<unsigned>(samples), samples, samples == 1, 6, 4));
+    for (int samples : {1, 4})
+        compare(device, randomPlan(static_cast<unsigned>(samples), samples, samples == 1, 6, 4));
     compare(device, adversarialPlan(1, false));
 }

@@ -12,10 +12,13 @@ namespace spectrad {
 namespace {
 
 using Random = std::mt19937;
-double uniform(Random& random, double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); }
+double uniform(Random& random, double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random);
+}
 
 /// A lobe with tables of its own; `functions` angle functions for microfacets.
-void addLobe(Plan& plan, int type, std::uint32_t& term, double alpha, std::uint32_t functions = 0, bool multipleApart = false) {
+void addLobe(Plan& plan, int type, std::uint32_t& term, double alpha, std::uint32_t functions = 0,
+             bool multipleApart = false) {
     World& world = plan.world;
     sd_lobe lobe{};
     lobe.type = type;
@@ -26,13 +29,18 @@ void addLobe(Plan& plan, int type, std::uint32_t& term, double alpha, std::uint3
     lobe.multiple = 0.3f;
     lobe.alpha = static_cast<float>(alpha);
     lobe.mean_through = 0.9f;
-    const size_t tables = type == SD_LOBE_FACETS ? 1 + 2 * functions : type == SD_LOBE_EMISSION || type == SD_LOBE_DIFFUSE ? 0 : 1;
+    const size_t tables = type == SD_LOBE_FACETS                                ? 1 + 2 * functions
+                          : type == SD_LOBE_EMISSION || type == SD_LOBE_DIFFUSE ? 0
+                                                                                : 1;
     for (size_t t = 0; t < tables; ++t) {
-        const auto table = tabulate([&](double c) { return fresnelDielectric(c, 1.3 + 0.2 * static_cast<double>(t)); });
+        const auto table =
+            tabulate([&](double c) { return fresnelDielectric(c, 1.3 + 0.2 * static_cast<double>(t)); });
         world.tables.insert(world.tables.end(), table.begin(), table.end());
     }
     world.lobes.push_back(lobe);
-    const std::uint32_t blocks = type == SD_LOBE_FACETS ? functions + (multipleApart ? 1 : 0) : type == SD_LOBE_ROUGH ? 2 : 1;
+    const std::uint32_t blocks = type == SD_LOBE_FACETS  ? functions + (multipleApart ? 1 : 0)
+                                 : type == SD_LOBE_ROUGH ? 2
+                                                         : 1;
     term += type == SD_LOBE_EMISSION ? 1 : blocks * plan.groups;
 }
 
@@ -58,7 +66,8 @@ void addMaterials(Plan& plan) {
     begin(), addLobe(plan, SD_LOBE_DIFFUSE, term, 0), end(term);
     for (double alpha : {0.25, 0.0}) {
         term = 0;
-        begin(), addLobe(plan, SD_LOBE_COATED, term, 0), addLobe(plan, SD_LOBE_FACETS, term, alpha, 1), end(term);
+        begin(), addLobe(plan, SD_LOBE_COATED, term, 0), addLobe(plan, SD_LOBE_FACETS, term, alpha, 1),
+            end(term);
     }
     term = 0;
     begin(), addLobe(plan, SD_LOBE_EMISSION, term, 0), addLobe(plan, SD_LOBE_DIFFUSE, term, 0), end(term);
@@ -72,7 +81,8 @@ void addMaterials(Plan& plan) {
         t.first = world.texels.size();
         t.width = 5, t.height = 3, t.bands = 4;
         t.filter = filter;
-        for (int i = 0; i < t.width * t.height * t.bands; ++i) world.texels.push_back(static_cast<float>((i * 37 % 101) / 100.0));
+        for (int i = 0; i < t.width * t.height * t.bands; ++i)
+            world.texels.push_back(static_cast<float>((i * 37 % 101) / 100.0));
         world.textures.push_back(t);
         term = 0;
         begin(), addLobe(plan, filter == SD_NEAREST ? SD_LOBE_COATED : SD_LOBE_DIFFUSE, term, 0);
@@ -83,8 +93,10 @@ void addMaterials(Plan& plan) {
     plan.terms.bands = 7;
     Random random(99);
     for (std::uint32_t t = 0; t < terms; ++t) {
-        for (size_t b = 0; b < plan.terms.bands; ++b) plan.terms.spectra.push_back(static_cast<float>(uniform(random, 0, 2)));
-        for (size_t c = 0; c < 3; ++c) plan.terms.preview.push_back(static_cast<float>(uniform(random, -0.1, 2)));
+        for (size_t b = 0; b < plan.terms.bands; ++b)
+            plan.terms.spectra.push_back(static_cast<float>(uniform(random, 0, 2)));
+        for (size_t c = 0; c < 3; ++c)
+            plan.terms.preview.push_back(static_cast<float>(uniform(random, -0.1, 2)));
     }
 }
 
@@ -115,7 +127,10 @@ Plan emptyPlan(int samples, bool orthographic, int width, int height) {
     plan.view.height = height;
     plan.view.pixelsPerSlope = orthographic ? height / 4.0 : height * 0.9;
     plan.wavelengths.nm = {400, 450, 500, 550, 600, 650, 700};
-    plan.defines = {"HAS_COATED", "HAS_FACETS", "HAS_ROUGH", "HAS_TEXTURE", "HAS_UNIFORM", "HAS_POINT", "HAS_SPOT", "HAS_DIRECTIONAL", "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
+    plan.defines = {
+        "HAS_COATED",  "HAS_FACETS",      "HAS_ROUGH",
+        "HAS_TEXTURE", "HAS_UNIFORM",     "HAS_POINT",
+        "HAS_SPOT",    "HAS_DIRECTIONAL", "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
     sd_draw draw{};
     draw.to_camera[0] = draw.to_camera[5] = draw.to_camera[10] = 1;
     draw.normal[0] = draw.normal[4] = draw.normal[8] = 1;
@@ -127,14 +142,18 @@ Plan emptyPlan(int samples, bool orthographic, int width, int height) {
 }
 
 void addVertex(World& world, double x, double y, double z, Random& random) {
-    for (double v : {x, y, z}) world.position.push_back(static_cast<float>(v));
-    for (int i = 0; i < 3; ++i) world.normal.push_back(static_cast<float>(uniform(random, -1, 1)));
+    for (double v : {x, y, z})
+        world.position.push_back(static_cast<float>(v));
+    for (int i = 0; i < 3; ++i)
+        world.normal.push_back(static_cast<float>(uniform(random, -1, 1)));
     world.vertexDraw.push_back(0);
-    for (int i = 0; i < 2; ++i) world.uv.push_back(static_cast<float>(uniform(random, -0.3, 1.4)));
+    for (int i = 0; i < 2; ++i)
+        world.uv.push_back(static_cast<float>(uniform(random, -0.3, 1.4)));
 }
 
 void addTriangle(World& world, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    for (std::uint32_t i : {a, b, c}) world.index.push_back(i);
+    for (std::uint32_t i : {a, b, c})
+        world.index.push_back(i);
     world.triangleMaterial.push_back(static_cast<std::uint32_t>(1 + world.triangleMaterial.size() % 8));
 }
 
@@ -147,16 +166,27 @@ Plan randomPlan(unsigned seed, int samples, bool orthographic, int triangles, in
     sd_draw draw{};
     const double c = std::cos(0.4), s = std::sin(0.4);
     const double m[12] = {c, -s, 0, 0.1, s, c, 0, -0.2, 0, 0, 1.5, -0.3};
-    for (size_t i = 0; i < 12; ++i) draw.to_camera[i] = m[i];
-    const float n[9] = {static_cast<float>(c), static_cast<float>(-s), 0, static_cast<float>(s), static_cast<float>(c), 0, 0, 0, 0.7f};
-    for (size_t i = 0; i < 9; ++i) draw.normal[i] = n[i];
+    for (size_t i = 0; i < 12; ++i)
+        draw.to_camera[i] = m[i];
+    const float n[9] = {static_cast<float>(c),
+                        static_cast<float>(-s),
+                        0,
+                        static_cast<float>(s),
+                        static_cast<float>(c),
+                        0,
+                        0,
+                        0,
+                        0.7f};
+    for (size_t i = 0; i < 9; ++i)
+        draw.normal[i] = n[i];
     plan.world.draws.push_back(draw);
     for (int t = 0; t < triangles; ++t) {
         const double size = std::pow(10, uniform(random, -2.5, 0.5));
         const double x = uniform(random, -3, 3), y = uniform(random, -2, 2), z = uniform(random, -8, -0.5);
         const auto first = static_cast<std::uint32_t>(plan.world.vertexDraw.size());
         for (int k = 0; k < 3; ++k) {
-            addVertex(plan.world, x + uniform(random, -size, size), y + uniform(random, -size, size), z + uniform(random, -size, size), random);
+            addVertex(plan.world, x + uniform(random, -size, size), y + uniform(random, -size, size),
+                      z + uniform(random, -size, size), random);
             plan.world.vertexDraw.back() = static_cast<std::uint32_t>(t % 2);
         }
         addTriangle(plan.world, first, first + 1, first + 2);
@@ -172,7 +202,9 @@ Plan adversarialPlan(unsigned seed, bool orthographic) {
         addVertex(world, x, y, z, random);
         return static_cast<std::uint32_t>(world.vertexDraw.size() - 1);
     };
-    const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { addTriangle(world, a, b, c); };
+    const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        addTriangle(world, a, b, c);
+    };
     // Corners exactly on samples and pixel borders, collinear and coincident corners.
     const double pixel = 1 / plan.view.pixelsPerSlope;
     const auto onGrid = [&](double col, double row, double z) {
@@ -203,15 +235,19 @@ Plan adversarialPlan(unsigned seed, bool orthographic) {
     std::uint32_t last = corner(2, -0.1, 0.2);
     for (int k = 1; k <= 12; ++k) {
         const double angle = 2 * 3.141592653589793 * k / 12;
-        const std::uint32_t next = corner(2 * std::cos(angle), -0.1 + 1.4 * std::sin(angle), -1.5 + 1.7 * std::cos(angle * 2 + seed));
+        const std::uint32_t next = corner(2 * std::cos(angle), -0.1 + 1.4 * std::sin(angle),
+                                          -1.5 + 1.7 * std::cos(angle * 2 + seed));
         triangle(centre, last, next);
         last = next;
     }
     for (int t = 0; t < 40; ++t) {
         const double scale = std::pow(10, uniform(random, -9, 9));
-        const std::uint32_t p = corner(uniform(random, -1, 1) * scale, uniform(random, -1, 1) * scale, uniform(random, -1, 0.3) * scale);
-        const std::uint32_t q = corner(uniform(random, -1, 1) * scale, uniform(random, -1, 1) * scale, uniform(random, -1, 0.3) * scale);
-        const std::uint32_t r = corner(uniform(random, -1, 1) * scale, uniform(random, -1, 1) * scale, uniform(random, -1, 0.3) * scale);
+        const std::uint32_t p = corner(uniform(random, -1, 1) * scale, uniform(random, -1, 1) * scale,
+                                       uniform(random, -1, 0.3) * scale);
+        const std::uint32_t q = corner(uniform(random, -1, 1) * scale, uniform(random, -1, 1) * scale,
+                                       uniform(random, -1, 0.3) * scale);
+        const std::uint32_t r = corner(uniform(random, -1, 1) * scale, uniform(random, -1, 1) * scale,
+                                       uniform(random, -1, 0.3) * scale);
         triangle(p, q, r);
     }
     return plan;
@@ -220,7 +256,8 @@ Plan adversarialPlan(unsigned seed, bool orthographic) {
 Plan wallPlan(int samples) {
     Plan plan = emptyPlan(samples, true, 400, 40);
     Random random(5);
-    for (const auto& [x, y] : {std::pair{-9.0, -1.0}, {9.0, -1.0}, {9.0, 1.5}, {-9.0, 1.5}}) addVertex(plan.world, x, y, -3, random);
+    for (const auto& [x, y] : {std::pair{-9.0, -1.0}, {9.0, -1.0}, {9.0, 1.5}, {-9.0, 1.5}})
+        addVertex(plan.world, x, y, -3, random);
     addTriangle(plan.world, 0, 1, 2);
     addTriangle(plan.world, 0, 2, 3);
     return plan;

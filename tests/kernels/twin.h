@@ -1,5 +1,5 @@
-// Scalar C++ twins of the kernels, sample by sample and term by term, in the same arithmetic: float where they use float, fused
-// where they fuse. What they compute must agree with the devices bit for bit.
+// Scalar C++ twins of the kernels, sample by sample and term by term, in the same arithmetic: float where
+// they use float, fused where they fuse. What they compute must agree with the devices bit for bit.
 #pragma once
 
 #include "render/plan.h"
@@ -20,14 +20,16 @@ Vertices transform(const World& world, const sd_frame& frame);
 sd_frame frameOf(const Plan& plan);
 
 /// Keys of all samples, [row][x < pitch][slot], of pixels x < width (the padding stays empty).
-std::vector<std::uint64_t> cover(const World& world, const Vertices& vertices, const sd_frame& frame, const LanePattern& lanes);
+std::vector<std::uint64_t> cover(const World& world, const Vertices& vertices, const sd_frame& frame,
+                                 const LanePattern& lanes);
 
 /// g of one pixel: one float per term of the pixel's block, in the block's order of terms.
 struct Block {
     std::vector<std::uint32_t> term;
     std::vector<float> g;  // [term][SD_BLOCK]
 };
-/// `vectorWidth` decides the order in which samples are added (pairwise within 16 lanes, or one after another).
+/// `vectorWidth` decides the order in which samples are added (pairwise within 16 lanes, or one after
+/// another).
 Block light(const Plan& plan, const Vertices& vertices, const sd_frame& frame, const LanePattern& lanes,
             const std::vector<std::uint64_t>& keys, int row, int blockColumn, int vectorWidth);
 

@@ -25,21 +25,25 @@ Vertices transform(const World& world, const sd_frame& frame) {
     Vertices out;
     for (size_t v = 0; v < world.vertexDraw.size(); ++v) {
         const sd_draw& d = world.draws[world.vertexDraw[v]];
-        const double px = world.position[3 * v], py = world.position[3 * v + 1], pz = world.position[3 * v + 2];
+        const double px = world.position[3 * v], py = world.position[3 * v + 1],
+                     pz = world.position[3 * v + 2];
         std::array<double, 3> p{};
         for (size_t row = 0; row < 3; ++row) {
             const double* m = d.to_camera + 4 * row;
             p[row] = std::fma(m[0], px, std::fma(m[1], py, std::fma(m[2], pz, m[3])));
             out.camera.push_back(static_cast<float>(p[row]));
             const float* n = d.normal + 3 * row;
-            out.normal.push_back(std::fma(n[0], world.normal[3 * v],
-                                          std::fma(n[1], world.normal[3 * v + 1], n[2] * world.normal[3 * v + 2])));
+            out.normal.push_back(
+                std::fma(n[0], world.normal[3 * v],
+                         std::fma(n[1], world.normal[3 * v + 1], n[2] * world.normal[3 * v + 2])));
         }
         const double depth = -p[2], reach = frame.orthographic ? 1.0 : depth;
-        const double sx = p[0] * frame.pixels_per_slope, sy = -p[1] * frame.pixels_per_slope, guard = SD_GUARD * reach;
+        const double sx = p[0] * frame.pixels_per_slope, sy = -p[1] * frame.pixels_per_slope,
+                     guard = SD_GUARD * reach;
         sd_vertex s{};
-        s.outside = (depth < static_cast<double>(SD_NEAR) ? SD_OUT_NEAR : 0) | (sx < -guard ? SD_OUT_LEFT : 0) |
-                    (sx > guard ? SD_OUT_RIGHT : 0) | (sy < -guard ? SD_OUT_TOP : 0) | (sy > guard ? SD_OUT_BOTTOM : 0);
+        s.outside = (depth < static_cast<double>(SD_NEAR) ? SD_OUT_NEAR : 0) |
+                    (sx < -guard ? SD_OUT_LEFT : 0) | (sx > guard ? SD_OUT_RIGHT : 0) |
+                    (sy < -guard ? SD_OUT_TOP : 0) | (sy > guard ? SD_OUT_BOTTOM : 0);
         if (!s.outside) {
             s.x = static_cast<int>(std::nearbyint(sx / reach * SD_SUBPIXEL));
             s.y = static_cast<int>(std::nearbyint(sy / reach * SD_SUBPIXEL));
@@ -58,18 +62,23 @@ struct Corner {
 
 double insideOf(int p, const Corner& c) {
     switch (p) {
-        case 0: return c.depth - static_cast<double>(SD_NEAR);
-        case 1: return std::fma(double{SD_GUARD}, c.reach, c.x);
-        case 2: return std::fma(double{SD_GUARD}, c.reach, -c.x);
-        case 3: return std::fma(double{SD_GUARD}, c.reach, c.y);
-        default: return std::fma(double{SD_GUARD}, c.reach, -c.y);
+        case 0:
+            return c.depth - static_cast<double>(SD_NEAR);
+        case 1:
+            return std::fma(double{SD_GUARD}, c.reach, c.x);
+        case 2:
+            return std::fma(double{SD_GUARD}, c.reach, -c.x);
+        case 3:
+            return std::fma(double{SD_GUARD}, c.reach, c.y);
+        default:
+            return std::fma(double{SD_GUARD}, c.reach, -c.y);
     }
 }
 
 Corner cut(const Corner& in, double dIn, const Corner& out, double dOut) {
     const double t = dIn / (dIn - dOut);
-    return {std::fma(t, out.x - in.x, in.x), std::fma(t, out.y - in.y, in.y), std::fma(t, out.reach - in.reach, in.reach),
-            std::fma(t, out.depth - in.depth, in.depth)};
+    return {std::fma(t, out.x - in.x, in.x), std::fma(t, out.y - in.y, in.y),
+            std::fma(t, out.reach - in.reach, in.reach), std::fma(t, out.depth - in.depth, in.depth)};
 }
 
 std::vector<Corner> clipped(std::vector<Corner> polygon) {
@@ -87,7 +96,9 @@ std::vector<Corner> clipped(std::vector<Corner> polygon) {
     return polygon;
 }
 
-int bias(int a, int b) { return (a > 0 || (a == 0 && b > 0)) ? 0 : -1; }
+int bias(int a, int b) {
+    return (a > 0 || (a == 0 && b > 0)) ? 0 : -1;
+}
 
 struct Painter {
     const sd_frame& frame;
@@ -97,22 +108,29 @@ struct Painter {
     void put(int row, int col, size_t slot, float key, std::uint32_t id) {
         const std::uint32_t bits = std::bit_cast<std::uint32_t>(key);
         const std::uint64_t word = (std::uint64_t{frame.orthographic ? bits : ~bits} << 32) | id;
-        std::uint64_t& cell = keys[(static_cast<size_t>(row) * static_cast<size_t>(frame.pitch) + static_cast<size_t>(col)) *
-                                       lanes.slotX.size() + slot];
+        std::uint64_t& cell =
+            keys[(static_cast<size_t>(row) * static_cast<size_t>(frame.pitch) + static_cast<size_t>(col)) *
+                     lanes.slotX.size() +
+                 slot];
         cell = std::min(cell, word);
     }
 
     template <typename Test>
     void samples(int left, int right, int top, int bottom, Test test) {
         const int halfW = frame.width * 128, halfH = frame.height * 128;
-        for (int row = std::max(0, (top + halfH) >> 8); row <= std::min(frame.height - 1, (bottom + halfH) >> 8); ++row)
-            for (int col = std::max(0, (left + halfW) >> 8); col <= std::min(frame.width - 1, (right + halfW) >> 8); ++col)
+        for (int row = std::max(0, (top + halfH) >> 8);
+             row <= std::min(frame.height - 1, (bottom + halfH) >> 8); ++row)
+            for (int col = std::max(0, (left + halfW) >> 8);
+                 col <= std::min(frame.width - 1, (right + halfW) >> 8); ++col)
                 for (size_t slot = 0; slot < lanes.slotX.size(); ++slot)
-                    test(row, col, slot, col * 256 - halfW + lanes.slotX[slot], row * 256 - halfH + lanes.slotY[slot]);
+                    test(row, col, slot, col * 256 - halfW + lanes.slotX[slot],
+                         row * 256 - halfH + lanes.slotY[slot]);
     }
 
-    void paint(std::array<int, 3> x, std::array<int, 3> y, std::array<float, 3> q, std::uint32_t id, bool alwaysLarge) {
-        const std::int64_t area = std::int64_t{x[1] - x[0]} * (y[2] - y[0]) - std::int64_t{x[2] - x[0]} * (y[1] - y[0]);
+    void paint(std::array<int, 3> x, std::array<int, 3> y, std::array<float, 3> q, std::uint32_t id,
+               bool alwaysLarge) {
+        const std::int64_t area =
+            std::int64_t{x[1] - x[0]} * (y[2] - y[0]) - std::int64_t{x[2] - x[0]} * (y[1] - y[0]);
         if (area == 0) return;
         if (area < 0) {
             std::swap(x[1], x[2]);
@@ -128,54 +146,68 @@ struct Painter {
         const double qx = (d1 * (y[2] - y[0]) - d2 * (y[1] - y[0])) * invArea;
         const double qy = (d2 * (x[1] - x[0]) - d1 * (x[2] - x[0])) * invArea;
         const float invAreaFloat = 1.0f / static_cast<float>(area < 0 ? -area : area);
-        samples(left, right, top, bottom, [&, lo = low, hi = high](int row, int col, size_t slot, int sx, int sy) {
-            std::array<std::int64_t, 3> e{};
-            for (size_t k = 0; k < 3; ++k) {
-                const size_t n = (k + 1) % 3;
-                const int a = y[k] - y[n], b = x[n] - x[k];
-                e[k] = std::int64_t{a} * (sx - x[k]) + std::int64_t{b} * (sy - y[k]);
-                if (e[k] + bias(a, b) < 0) return;
-            }
-            float key = 0;
-            if (large) {
-                key = static_cast<float>(std::fma(qx, static_cast<double>(sx - x[0]), std::fma(qy, static_cast<double>(sy - y[0]), double{q[0]})));
-            } else {
-                // Edge 1 -> 2 is opposite corner 0, and so on.
-                key = std::fma(static_cast<float>(e[0]), q[2], std::fma(static_cast<float>(e[2]), q[1], static_cast<float>(e[1]) * q[0])) * invAreaFloat;
-            }
-            put(row, col, slot, std::clamp(key, lo, hi), id);
-        });
+        samples(left, right, top, bottom,
+                [&, lo = low, hi = high](int row, int col, size_t slot, int sx, int sy) {
+                    std::array<std::int64_t, 3> e{};
+                    for (size_t k = 0; k < 3; ++k) {
+                        const size_t n = (k + 1) % 3;
+                        const int a = y[k] - y[n], b = x[n] - x[k];
+                        e[k] = std::int64_t{a} * (sx - x[k]) + std::int64_t{b} * (sy - y[k]);
+                        if (e[k] + bias(a, b) < 0) return;
+                    }
+                    float key = 0;
+                    if (large) {
+                        key = static_cast<float>(
+                            std::fma(qx, static_cast<double>(sx - x[0]),
+                                     std::fma(qy, static_cast<double>(sy - y[0]), double{q[0]})));
+                    } else {
+                        // Edge 1 -> 2 is opposite corner 0, and so on.
+                        key = std::fma(
+                                  static_cast<float>(e[0]), q[2],
+                                  std::fma(static_cast<float>(e[2]), q[1], static_cast<float>(e[1]) * q[0])) *
+                              invAreaFloat;
+                    }
+                    put(row, col, slot, std::clamp(key, lo, hi), id);
+                });
     }
 };
 
 }  // namespace
 
-std::vector<std::uint64_t> cover(const World& world, const Vertices& vertices, const sd_frame& frame, const LanePattern& lanes) {
-    std::vector<std::uint64_t> keys(static_cast<size_t>(frame.rows) * static_cast<size_t>(frame.pitch) * lanes.slotX.size(),
-                                    ~std::uint64_t{0});
+std::vector<std::uint64_t> cover(const World& world, const Vertices& vertices, const sd_frame& frame,
+                                 const LanePattern& lanes) {
+    std::vector<std::uint64_t> keys(
+        static_cast<size_t>(frame.rows) * static_cast<size_t>(frame.pitch) * lanes.slotX.size(),
+        ~std::uint64_t{0});
     Painter painter{frame, lanes, keys};
     for (std::uint32_t id = 0; id < world.index.size() / 3; ++id) {
         std::array<sd_vertex, 3> v{};
-        for (size_t k = 0; k < 3; ++k) v[k] = vertices.screen[world.index[3 * id + k]];
+        for (size_t k = 0; k < 3; ++k)
+            v[k] = vertices.screen[world.index[3 * id + k]];
         if (v[0].outside & v[1].outside & v[2].outside) continue;
         if (!(v[0].outside | v[1].outside | v[2].outside)) {
-            painter.paint({v[0].x, v[1].x, v[2].x}, {v[0].y, v[1].y, v[2].y}, {v[0].depth_key, v[1].depth_key, v[2].depth_key}, id, false);
+            painter.paint({v[0].x, v[1].x, v[2].x}, {v[0].y, v[1].y, v[2].y},
+                          {v[0].depth_key, v[1].depth_key, v[2].depth_key}, id, false);
             continue;
         }
         std::vector<Corner> polygon;
         for (size_t k = 0; k < 3; ++k) {
             const float* p = vertices.camera.data() + 3 * size_t{world.index[3 * id + k]};
             const double depth = -static_cast<double>(p[2]);
-            polygon.push_back({p[0] * frame.pixels_per_slope, -p[1] * frame.pixels_per_slope, frame.orthographic ? 1.0 : depth, depth});
+            polygon.push_back({p[0] * frame.pixels_per_slope, -p[1] * frame.pixels_per_slope,
+                               frame.orthographic ? 1.0 : depth, depth});
         }
         polygon = clipped(polygon);
         std::vector<int> x, y;
         std::vector<float> q;
         for (const Corner& c : polygon) {
-            const double depth = std::max(c.depth, static_cast<double>(SD_NEAR)), reach = frame.orthographic ? 1.0 : depth;
+            const double depth = std::max(c.depth, static_cast<double>(SD_NEAR)),
+                         reach = frame.orthographic ? 1.0 : depth;
             constexpr double bound = SD_GUARD * SD_SUBPIXEL;
-            x.push_back(static_cast<int>(std::clamp(std::nearbyint(c.x / reach * SD_SUBPIXEL), -bound, bound)));
-            y.push_back(static_cast<int>(std::clamp(std::nearbyint(c.y / reach * SD_SUBPIXEL), -bound, bound)));
+            x.push_back(
+                static_cast<int>(std::clamp(std::nearbyint(c.x / reach * SD_SUBPIXEL), -bound, bound)));
+            y.push_back(
+                static_cast<int>(std::clamp(std::nearbyint(c.y / reach * SD_SUBPIXEL), -bound, bound)));
             q.push_back(frame.orthographic ? static_cast<float>(depth) : static_cast<float>(1.0 / depth));
         }
         for (size_t k = 2; k < x.size(); ++k)

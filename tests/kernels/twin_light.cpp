@@ -15,10 +15,15 @@ namespace {
 struct V {
     float x, y, z;
 };
-float dot(V a, V b) { return std::fma(a.z, b.z, std::fma(a.y, b.y, a.x * b.x)); }
-V scaled(V a, float s) { return {a.x * s, a.y * s, a.z * s}; }
+float dot(V a, V b) {
+    return std::fma(a.z, b.z, std::fma(a.y, b.y, a.x * b.x));
+}
+V scaled(V a, float s) {
+    return {a.x * s, a.y * s, a.z * s};
+}
 V crossed(V a, V b) {
-    return {std::fma(a.y, b.z, -(a.z * b.y)), std::fma(a.z, b.x, -(a.x * b.z)), std::fma(a.x, b.y, -(a.y * b.x))};
+    return {std::fma(a.y, b.z, -(a.z * b.y)), std::fma(a.z, b.x, -(a.x * b.z)),
+            std::fma(a.x, b.y, -(a.y * b.x))};
 }
 V unit(V a) {
     const float square = dot(a, a);
@@ -31,9 +36,12 @@ struct Surface {
     float u, v;
 };
 
-float mixed(float b0, float v0, float b1, float v1, float b2, float v2) { return std::fma(b2, v2, std::fma(b1, v1, b0 * v0)); }
+float mixed(float b0, float v0, float b1, float v1, float b2, float v2) {
+    return std::fma(b2, v2, std::fma(b1, v1, b0 * v0));
+}
 
-Surface surfaceAt(const World& world, const Vertices& vertices, const sd_frame& frame, std::uint32_t triangle, float x, float y) {
+Surface surfaceAt(const World& world, const Vertices& vertices, const sd_frame& frame, std::uint32_t triangle,
+                  float x, float y) {
     std::array<const float*, 3> p{}, n{};
     for (size_t k = 0; k < 3; ++k) {
         p[k] = vertices.camera.data() + 3 * size_t{world.index[3 * size_t{triangle} + k]};
@@ -45,7 +53,8 @@ Surface surfaceAt(const World& world, const Vertices& vertices, const sd_frame& 
         u[k] = frame.orthographic ? p[k][0] - rx : std::fma(rx, p[k][2], p[k][0]);
         v[k] = frame.orthographic ? p[k][1] - ry : std::fma(ry, p[k][2], p[k][1]);
     }
-    float b0 = std::fma(u[1], v[2], -(u[2] * v[1])), b1 = std::fma(u[2], v[0], -(u[0] * v[2])), b2 = std::fma(u[0], v[1], -(u[1] * v[0]));
+    float b0 = std::fma(u[1], v[2], -(u[2] * v[1])), b1 = std::fma(u[2], v[0], -(u[0] * v[2])),
+          b2 = std::fma(u[0], v[1], -(u[1] * v[0]));
     const float turn = std::copysign(1.0f, b0 + b1 + b2);
     b0 = std::fmax(b0 * turn, 0.0f), b1 = std::fmax(b1 * turn, 0.0f), b2 = std::fmax(b2 * turn, 0.0f);
     const float sum = b0 + b1 + b2;
@@ -61,7 +70,8 @@ Surface surfaceAt(const World& world, const Vertices& vertices, const sd_frame& 
     V normal{mixed(b0, n[0][0], b1, n[1][0], b2, n[2][0]), mixed(b0, n[0][1], b1, n[1][1], b2, n[2][1]),
              mixed(b0, n[0][2], b1, n[1][2], b2, n[2][2])};
     s.view = frame.orthographic ? V{0, 0, 1} : unit({-s.position.x, -s.position.y, -s.position.z});
-    const V e1{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]}, e2{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
+    const V e1{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]},
+        e2{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
     const V face = crossed(e1, e2);
     const float seen = dot(face, s.view), along = dot(face, normal);
     normal = unit(normal);
@@ -69,7 +79,8 @@ Surface surfaceAt(const World& world, const Vertices& vertices, const sd_frame& 
     s.cosView = std::fmax(dot(s.normal, s.view), 1e-5f);
     if (!world.uv.empty()) {
         std::array<const float*, 3> t{};
-        for (size_t k = 0; k < 3; ++k) t[k] = world.uv.data() + 2 * size_t{world.index[3 * size_t{triangle} + k]};
+        for (size_t k = 0; k < 3; ++k)
+            t[k] = world.uv.data() + 2 * size_t{world.index[3 * size_t{triangle} + k]};
         s.u = mixed(b0, t[0][0], b1, t[1][0], b2, t[2][0]);
         s.v = mixed(b0, t[0][1], b1, t[1][1], b2, t[2][1]);
     }
@@ -112,21 +123,29 @@ float arriving(const sd_light& light, V position, V& toLight) {
 
 /// One band of a texture at the surface's coordinates.
 float texel(const World& world, const sd_texture& t, const Surface& s, int band) {
-    const float x = std::clamp(s.u, 0.0f, 1.0f) * static_cast<float>(t.width), y = (1.0f - std::clamp(s.v, 0.0f, 1.0f)) * static_cast<float>(t.height);
+    const float x = std::clamp(s.u, 0.0f, 1.0f) * static_cast<float>(t.width),
+                y = (1.0f - std::clamp(s.v, 0.0f, 1.0f)) * static_cast<float>(t.height);
     const auto at = [&](int column, int row) {
-        return world.texels[t.first + (static_cast<size_t>(std::clamp(row, 0, t.height - 1)) * static_cast<size_t>(t.width) +
-                                       static_cast<size_t>(std::clamp(column, 0, t.width - 1))) * static_cast<size_t>(t.bands) + static_cast<size_t>(band)];
+        return world
+            .texels[t.first +
+                    (static_cast<size_t>(std::clamp(row, 0, t.height - 1)) * static_cast<size_t>(t.width) +
+                     static_cast<size_t>(std::clamp(column, 0, t.width - 1))) *
+                        static_cast<size_t>(t.bands) +
+                    static_cast<size_t>(band)];
     };
     if (t.filter == SD_NEAREST) return at(static_cast<int>(x), static_cast<int>(y));
-    const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f), right = (x - 0.5f) - left, down = (y - 0.5f) - top;
+    const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f), right = (x - 0.5f) - left,
+                down = (y - 0.5f) - top;
     const int column = static_cast<int>(left), row = static_cast<int>(top);
     const float a = std::fma(right, at(column + 1, row) - at(column, row), at(column, row));
     const float b = std::fma(right, at(column + 1, row + 1) - at(column, row + 1), at(column, row + 1));
     return std::fma(down, b - a, a);
 }
 
-/// Calls add(call, term, g) for everything that lobes and lights add to one sample; `call` orders the additions.
-void shade(const Plan& plan, const sd_material& material, const Surface& s, const std::function<void(size_t, std::uint32_t, float)>& add) {
+/// Calls add(call, term, g) for everything that lobes and lights add to one sample; `call` orders the
+/// additions.
+void shade(const Plan& plan, const sd_material& material, const Surface& s,
+           const std::function<void(size_t, std::uint32_t, float)>& add) {
     const World& world = plan.world;
     const std::uint32_t groups = plan.groups;
     size_t call = 0;
@@ -147,14 +166,16 @@ void shade(const Plan& plan, const sd_material& material, const Surface& s, cons
             }
             const sd_texture& t = world.textures[lobe.texture - 1];
             for (int band = 0; band < t.bands; ++band)
-                add(base + static_cast<size_t>(band), term + static_cast<std::uint32_t>(band) * groups, g * texel(world, t, s, band));
+                add(base + static_cast<size_t>(band), term + static_cast<std::uint32_t>(band) * groups,
+                    g * texel(world, t, s, band));
         };
         for (const sd_light& light : world.lights) {
             const size_t base = call;
             call += callsALight;
             const std::uint32_t term = lobe.term + light.group;
             if (light.type == SD_LIGHT_AMBIENT || light.type == SD_LIGHT_SURROUNDINGS) {
-                if (light.type == SD_LIGHT_SURROUNDINGS && !(lobe.type == SD_LOBE_FACETS && lobe.alpha == 0)) continue;
+                if (light.type == SD_LIGHT_SURROUNDINGS && !(lobe.type == SD_LOBE_FACETS && lobe.alpha == 0))
+                    continue;
                 if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, light.scale);
                 if (lobe.type == SD_LOBE_ROUGH) {
                     add(base, term, light.scale * (1.0f - first));
@@ -163,9 +184,11 @@ void shade(const Plan& plan, const sd_material& material, const Surface& s, cons
                 if (lobe.type == SD_LOBE_COATED) paint(base, term, light.scale * first * lobe.mean_through);
                 if (lobe.type == SD_LOBE_FACETS) {
                     for (std::uint32_t f = 0; f < lobe.functions; ++f)
-                        add(base + f, term + f * groups, light.scale * inversePi * lookUp(table + (1 + f) * SD_CELLS, viewCell));
+                        add(base + f, term + f * groups,
+                            light.scale * inversePi * lookUp(table + (1 + f) * SD_CELLS, viewCell));
                     if (lobe.multiple_to == lobe.functions)
-                        add(base + lobe.functions, term + lobe.functions * groups, light.scale * inversePi * first);
+                        add(base + lobe.functions, term + lobe.functions * groups,
+                            light.scale * inversePi * first);
                 }
                 continue;
             }
@@ -175,13 +198,15 @@ void shade(const Plan& plan, const sd_material& material, const Surface& s, cons
             if (!(cosLight > 0)) continue;
             const float irradiance = strength * cosLight;
             if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, irradiance);
-            if (lobe.type == SD_LOBE_COATED) paint(base, term, irradiance * (first * lookUp(table, cellOf(cosLight))));
+            if (lobe.type == SD_LOBE_COATED)
+                paint(base, term, irradiance * (first * lookUp(table, cellOf(cosLight))));
             if (lobe.type == SD_LOBE_ROUGH) {
                 const float beyond = std::fma(-cosLight, s.cosView, dot(toLight, s.view));
                 const float divisor = beyond > 0 ? std::fmax(cosLight, s.cosView) : 1.0f;
                 const float single = lobe.mean_through * std::fma(lobe.alpha, beyond / divisor, 1.0f);
                 add(base, term, irradiance * single);
-                add(base + 1, term + groups, irradiance * (first * lookUp(table, cellOf(cosLight)) * lobe.multiple));
+                add(base + 1, term + groups,
+                    irradiance * (first * lookUp(table, cellOf(cosLight)) * lobe.multiple));
             }
             if (lobe.type == SD_LOBE_FACETS && lobe.alpha != 0) {
                 const V h = unit({toLight.x + s.view.x, toLight.y + s.view.y, toLight.z + s.view.z});
@@ -191,7 +216,8 @@ void shade(const Plan& plan, const sd_material& material, const Surface& s, cons
                 const float width = std::fma(cosHalf * cosHalf, a2, dot(across, across));
                 const float shadowView = cosLight * std::sqrt(std::fma(s.cosView * s.cosView, 1.0f - a2, a2));
                 const float shadowLight = s.cosView * std::sqrt(std::fma(cosLight * cosLight, 1.0f - a2, a2));
-                const float shape = (a2 * inversePi) / (width * width) * 0.5f / (shadowView + shadowLight) * irradiance;
+                const float shape =
+                    (a2 * inversePi) / (width * width) * 0.5f / (shadowView + shadowLight) * irradiance;
                 const float multiple = first * lookUp(table, cellOf(cosLight)) * lobe.multiple * irradiance;
                 const Cell facing = cellOf(cosDiff);
                 for (std::uint32_t f = 0; f < lobe.functions; ++f) {
@@ -199,7 +225,8 @@ void shade(const Plan& plan, const sd_material& material, const Surface& s, cons
                     if (f == lobe.multiple_to) g += multiple;
                     add(base + f, term + f * groups, g);
                 }
-                if (lobe.multiple_to == lobe.functions) add(base + lobe.functions, term + lobe.functions * groups, multiple);
+                if (lobe.multiple_to == lobe.functions)
+                    add(base + lobe.functions, term + lobe.functions * groups, multiple);
             }
         }
     }
@@ -208,7 +235,8 @@ void shade(const Plan& plan, const sd_material& material, const Surface& s, cons
 bool isTextured(const World& world, const sd_material& material, std::uint32_t term) {
     bool textured = false;
     for (std::uint32_t l = 0; l < material.lobes; ++l)
-        if (world.lobes[material.first_lobe + l].term <= term) textured = world.lobes[material.first_lobe + l].texture != 0;
+        if (world.lobes[material.first_lobe + l].term <= term)
+            textured = world.lobes[material.first_lobe + l].texture != 0;
     return textured;
 }
 
@@ -223,38 +251,46 @@ Block light(const Plan& plan, const Vertices& vertices, const sd_frame& frame, c
             const std::vector<std::uint64_t>& keys, int row, int blockColumn, int vectorWidth) {
     const World& world = plan.world;
     const size_t slots = lanes.slotX.size();
-    const std::uint64_t* cells = keys.data() + (static_cast<size_t>(row) * static_cast<size_t>(frame.pitch) + static_cast<size_t>(blockColumn) * SD_BLOCK) * slots;
+    const std::uint64_t* cells = keys.data() + (static_cast<size_t>(row) * static_cast<size_t>(frame.pitch) +
+                                                static_cast<size_t>(blockColumn) * SD_BLOCK) *
+                                                   slots;
     std::set<std::uint32_t> materials;
     const auto materialOf = [&](std::uint64_t key) {
         const auto id = static_cast<std::uint32_t>(key);
         return id == 0xffffffffu ? 0u : world.triangleMaterial[id];
     };
-    for (size_t i = 0; i < SD_BLOCK * slots; ++i) materials.insert(materialOf(cells[i]));
+    for (size_t i = 0; i < SD_BLOCK * slots; ++i)
+        materials.insert(materialOf(cells[i]));
     Block block;
     std::vector<size_t> offset(world.materials.size());
     for (std::uint32_t m : materials) {
         offset[m] = block.term.size();
-        for (std::uint32_t t = 0; t < world.materials[m].terms; ++t) block.term.push_back(world.materials[m].first_term + t);
+        for (std::uint32_t t = 0; t < world.materials[m].terms; ++t)
+            block.term.push_back(world.materials[m].first_term + t);
     }
     block.g.assign(block.term.size() * SD_BLOCK, 0.0f);
     const auto lanesAtOnce = static_cast<size_t>(vectorWidth);
     const size_t group = std::min(slots, lanesAtOnce);  // lanes of one pixel that are added pairwise
     for (size_t lane = 0; lane < SD_BLOCK * slots; lane += group) {
         const size_t x = lane / slots;
-        // As the kernel: triangle by triangle of the vector, in the order of their first lanes; g of lanes that do not see it is 0.
+        // As the kernel: triangle by triangle of the vector, in the order of their first lanes; g of lanes
+        // that do not see it is 0.
         const size_t vectorStart = lane / lanesAtOnce * lanesAtOnce;
         std::vector<std::uint32_t> order;
         for (size_t i = vectorStart; i < vectorStart + lanesAtOnce; ++i) {
             const auto id = static_cast<std::uint32_t>(cells[i]);
-            if (lanes.used[i % slots] && std::find(order.begin(), order.end(), id) == order.end()) order.push_back(id);
+            if (lanes.used[i % slots] && std::find(order.begin(), order.end(), id) == order.end())
+                order.push_back(id);
         }
         for (std::uint32_t id : order) {
             const std::uint32_t m = id == 0xffffffffu ? 0 : world.triangleMaterial[id];
             const sd_material& material = world.materials[m];
-            // Each add of the kernel, in its order; lanes left at zero where the sample sees another triangle or no light.
+            // Each add of the kernel, in its order; lanes left at zero where the sample sees another triangle
+            // or no light.
             std::map<size_t, std::pair<std::uint32_t, std::vector<float>>> adds;
             for (size_t i = 0; i < group; ++i) {
-                if (!lanes.used[(lane + i) % slots] || static_cast<std::uint32_t>(cells[lane + i]) != id) continue;
+                if (!lanes.used[(lane + i) % slots] || static_cast<std::uint32_t>(cells[lane + i]) != id)
+                    continue;
                 const auto add = [&](size_t call, std::uint32_t term, float g) {
                     auto& entry = adds.try_emplace(call, term, std::vector<float>(group, 0.0f)).first->second;
                     entry.second[i] = g;
@@ -264,9 +300,12 @@ Block light(const Plan& plan, const Vertices& vertices, const sd_frame& frame, c
                     continue;
                 }
                 const size_t slot = (lane + i) % slots;
-                const int sx = (blockColumn * SD_BLOCK + static_cast<int>(x)) * 256 - frame.width * 128 + lanes.slotX[slot];
+                const int sx = (blockColumn * SD_BLOCK + static_cast<int>(x)) * 256 - frame.width * 128 +
+                               lanes.slotX[slot];
                 const int sy = row * 256 - frame.height * 128 + lanes.slotY[slot];
-                shade(plan, material, surfaceAt(world, vertices, frame, id, static_cast<float>(sx), static_cast<float>(sy)), add);
+                shade(plan, material,
+                      surfaceAt(world, vertices, frame, id, static_cast<float>(sx), static_cast<float>(sy)),
+                      add);
             }
             for (const auto& [call, entry] : adds) {
                 float& sum = block.g[(offset[m] + entry.first) * SD_BLOCK + x];
@@ -280,7 +319,8 @@ Block light(const Plan& plan, const Vertices& vertices, const sd_frame& frame, c
         }
     }
     const float inverse = 1.0f / static_cast<float>(frame.samples);
-    for (float& g : block.g) g *= inverse;
+    for (float& g : block.g)
+        g *= inverse;
     return block;
 }
 
@@ -289,7 +329,8 @@ std::vector<float> expand(const Block& block, const std::vector<float>& spectra,
     for (size_t band = 0; band < bands; ++band)
         for (size_t t = 0; t < block.term.size(); ++t)
             for (size_t x = 0; x < SD_BLOCK; ++x)
-                out[band * SD_BLOCK + x] = std::fma(spectra[block.term[t] * bands + band], block.g[t * SD_BLOCK + x], out[band * SD_BLOCK + x]);
+                out[band * SD_BLOCK + x] = std::fma(spectra[block.term[t] * bands + band],
+                                                    block.g[t * SD_BLOCK + x], out[band * SD_BLOCK + x]);
     return out;
 }
 

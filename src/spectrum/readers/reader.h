@@ -11,7 +11,8 @@
 
 namespace spectrad {
 
-/// A file of curves over one wavelength column: columns[c][row] belongs to header[c]; nm ascending, all values finite.
+/// A file of curves over one wavelength column: columns[c][row] belongs to header[c]; nm ascending, all
+/// values finite.
 struct SpectrumTable {
     std::map<std::string, std::string> head;  ///< "# key: value" lines
     std::vector<std::string> header;          ///< names of the value columns (without the wavelength's)
