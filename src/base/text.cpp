@@ -40,18 +40,32 @@ bool startsWith(std::string_view text, std::string_view start) {
     return text.substr(0, start.size()) == start;
 }
 
+// Whether a decimal number other than 0 is below 1 in magnitude: by the place of its first digit that is not
+// 0.
+static bool isBelowOne(std::string_view number) {
+    const size_t e = std::min(number.find_first_of("eE"), number.size());
+    const std::string_view mantissa = number.substr(0, e);
+    std::string_view exponentText = number.substr(std::min(e + 1, number.size()));
+    if (startsWith(exponentText, "+")) exponentText.remove_prefix(1);
+    long long exponent = 0;
+    if (std::from_chars(exponentText.data(), exponentText.data() + exponentText.size(), exponent).ec ==
+        std::errc::result_out_of_range)
+        return exponentText[0] == '-';
+    const auto point = static_cast<long long>(std::min(mantissa.find('.'), mantissa.size()));
+    const auto first = static_cast<long long>(mantissa.find_first_of("123456789"));
+    return exponent < first - point + (first < point ? 1 : 0);
+}
+
 std::optional<double> parseDouble(std::string_view text) {
     text = trimmed(text);
-    if (!text.empty() && text[0] == '+') text.remove_prefix(1);
+    if (startsWith(text, "+") && !startsWith(text, "+-")) text.remove_prefix(1);
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    // A number too small for double reads as "out of range" too: what is below the range is 0, what is above
-    // is no number.
-    if (error == std::errc::result_out_of_range && end == text.data() + text.size() &&
-        text.find("e-") != std::string_view::npos)
-        return 0.0;
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        return std::nullopt;
+    if (end != text.data() + text.size()) return std::nullopt;
+    // "Out of range" is said on both sides: what is too small for double is 0, what is too large is no
+    // number.
+    if (error == std::errc::result_out_of_range && isBelowOne(text)) return 0.0;
+    if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
     return value;
 }
 

@@ -25,14 +25,27 @@ TEST_CASE("A number is the whole text, decimal and finite") {
     CHECK(parseDouble(" +1e-3 ") == 1e-3);
     CHECK(parseDouble("-.5") == -0.5);
     CHECK(parseDouble("1e308") == 1e308);
-    CHECK(parseDouble("1e-400") == 0.0);
-    for (const char* text :
-         {"", " ", "+", "1,5", "1.5x", "0x10", "nan", "inf", "-inf", "1e400", "1 2", "--1"})
+    for (const char* text : {"", " ", "+", "1,5", "1.5x", "0x10", "nan", "inf", "-inf", "1 2", "--1", "++1",
+                             "+-1", "-+1", "1e", "e5"})
         CHECK_FALSE(parseDouble(text));
     CHECK(parseInteger(" 42 ") == 42);
     CHECK(parseInteger("-3") == -3);
     for (const char* text : {"", "4.0", "4x", "99999999999999999999"})
         CHECK_FALSE(parseInteger(text));
+}
+
+TEST_CASE("A number too small for double is 0, one too large is none, however they are written") {
+    const std::string zeros(400, '0');
+    for (const std::string& text : {std::string("1e-400"), std::string("-1E-400"), std::string("+2.5E-0400"),
+                                    std::string("1e-99999999999999999999"), "0." + zeros + "1",
+                                    "." + zeros + "1e+20", "1" + zeros + "e-1000"})
+        CHECK(parseDouble(text) == 0.0);
+    for (const std::string& text :
+         {std::string("1e400"), std::string("-1E+400"), std::string("0.1E999"),
+          std::string("1e99999999999999999999"), "1" + zeros, "1" + zeros + "e-20", "." + zeros + "1e2000"})
+        CHECK_FALSE(parseDouble(text));
+    CHECK(parseDouble("1" + zeros + "e-400") == 1.0);
+    CHECK(parseDouble("0e400") == 0.0);
 }
 
 TEST_CASE("Numbers are read and written alike in a locale with decimal commas") {
