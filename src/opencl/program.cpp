@@ -58,7 +58,13 @@ void appendWithIncludes(std::string_view name, std::set<std::string, std::less<>
 cl::Program fromBinary(const Device::Body& body, const std::string& bytes) {
     const cl::Program::Binaries binaries{{bytes.begin(), bytes.end()}};
     cl::Program program(body.context, {body.device}, binaries);
-    program.build({body.device});
+    program.build({body.device}, buildOptions(body).c_str());
+    // Arguments are bound by name, and not every driver keeps the names in its binaries: asking throws where they are gone.
+    std::vector<cl::Kernel> kernels;
+    program.createKernels(&kernels);
+    for (const cl::Kernel& kernel : kernels)
+        if (kernel.getInfo<CL_KERNEL_NUM_ARGS>() > 0)
+            static_cast<void>(kernel.getArgInfo<CL_KERNEL_ARG_NAME>(0));
     return program;
 }
 
