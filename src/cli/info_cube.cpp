@@ -2,7 +2,6 @@
 #include "base/text.h"
 #include "cli/info.h"
 #include "image/cube.h"
-#include "image/exr_layout.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

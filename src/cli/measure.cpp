@@ -5,7 +5,7 @@
 #include "cli/observation.h"
 #include "cli/options.h"
 #include "colour/cct.h"
-#include "image/exr_layout.h"
+#include "image/cube.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

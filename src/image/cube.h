@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,10 @@ namespace spectrad {
 
 /// What the band values are; decides the channel names of the EXR layout (S0 or T).
 enum class CubeKind { radiance, irradiance, reflectance, transmittance };
+[[nodiscard]] std::string_view name(CubeKind kind);
+[[nodiscard]] std::optional<CubeKind> parseCubeKind(std::string_view text);
+/// The unit of the values, "W.m^-2.sr^-1.nm^-1", "W.m^-2.nm^-1" or "" for a ratio.
+[[nodiscard]] std::string_view unit(CubeKind kind);
 
 struct CubeInfo {
     int width = 0, height = 0;

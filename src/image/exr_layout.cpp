@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace spectrad {
 
@@ -22,21 +23,15 @@ namespace {
 
 constexpr size_t longestAttributeName = 31;  // bytes; a longer one sets the file's "long names" flag
 
-struct KindWords {
+/// What the layout says of a unit leaves out the "per nm" that it means; an attribute of ours says it whole.
+struct EmissiveKind {
     CubeKind kind;
-    std::string_view name, unit;
-    const char* layoutUnit;  ///< for the layout's attribute, whose text leaves out the "per nm" that it means
-    const char* unitAttribute;  ///< our own, with the true unit
+    const char* layoutUnit;
+    const char* unitAttribute;
 };
-constexpr std::array<KindWords, 4> kinds{
-    {{CubeKind::radiance, "radiance", "W.m^-2.sr^-1.nm^-1", "W.m^-2.sr^-1", "spectralRadianceUnits"},
-     {CubeKind::irradiance, "irradiance", "W.m^-2.nm^-1", "W.m^-2", "spectralIrradianceUnits"},
-     {CubeKind::reflectance, "reflectance", "", nullptr, nullptr},
-     {CubeKind::transmittance, "transmittance", "", nullptr, nullptr}}};
-
-const KindWords& wordsOf(CubeKind kind) {
-    return *std::find_if(kinds.begin(), kinds.end(), [&](const KindWords& k) { return k.kind == kind; });
-}
+constexpr std::array<EmissiveKind, 2> emissiveKinds{
+    {{CubeKind::radiance, "W.m^-2.sr^-1", "spectralRadianceUnits"},
+     {CubeKind::irradiance, "W.m^-2", "spectralIrradianceUnits"}}};
 
 std::string ours(std::string_view name) {
     return std::string(exr::ourPrefix).append(name);
@@ -110,20 +105,6 @@ std::optional<std::vector<double>> exactWavelengths(const Imf::Header& header,
 
 }  // namespace
 
-std::string_view name(CubeKind kind) {
-    return wordsOf(kind).name;
-}
-
-std::optional<CubeKind> parseCubeKind(std::string_view text) {
-    for (const KindWords& k : kinds)
-        if (k.name == text) return k.kind;
-    return std::nullopt;
-}
-
-std::string_view unit(CubeKind kind) {
-    return wordsOf(kind).unit;
-}
-
 void addText(Imf::Header& header, const std::string& name, const std::string& value,
              const std::filesystem::path& file) {
     if (name.empty() || name.size() > longestAttributeName)
@@ -147,16 +128,16 @@ Imf::Header cubeHeader(const CubeInfo& info, const WriteOptions& options,
         header.channels().insert(colour, channel);
 
     header.insert(exr::layoutVersion, Imf::StringAttribute("1.0"));
-    const KindWords& kind = wordsOf(info.kind);
-    if (kind.layoutUnit) {
-        header.insert(exr::emissiveUnits, Imf::StringAttribute(kind.layoutUnit));
-        header.insert(kind.unitAttribute, Imf::StringAttribute(std::string(kind.unit)));
-    }
+    for (const EmissiveKind& emissive : emissiveKinds)
+        if (emissive.kind == info.kind) {
+            header.insert(exr::emissiveUnits, Imf::StringAttribute(emissive.layoutUnit));
+            header.insert(emissive.unitAttribute, Imf::StringAttribute(std::string(unit(info.kind))));
+        }
     header.insert("EV", Imf::FloatAttribute(0));            // the preview is what was computed × 2^EV
     Imf::addChromaticities(header, Imf::Chromaticities());  // Rec. 709 and D65
 
     const Wavelengths& grid = info.wavelengths;
-    header.insert(ours(exr::quantity), Imf::StringAttribute(std::string(kind.name)));
+    header.insert(ours(exr::quantity), Imf::StringAttribute(std::string(name(info.kind))));
     header.insert(ours(exr::projection), Imf::StringAttribute(std::string(name(grid.projection))));
     header.insert(ours(exr::step), Imf::StringAttribute(shortest(grid.step)));
     if (std::any_of(grid.nm.begin(), grid.nm.end(), [](double nm) { return asNamed(nm) != nm; })) {
@@ -176,8 +157,9 @@ Imf::Header cubeHeader(const CubeInfo& info, const WriteOptions& options,
     if (!info.attributes.contains("software")) addText(header, "software", "Spectrad", file);
     if (!info.attributes.contains("comments"))
         addText(header, "comments",
-                fmt::format("Spectral {}{}{}; the bands are {}.", kind.name, kind.unit.empty() ? "" : " in ",
-                            kind.unit, projectionWords(grid.projection)),
+                fmt::format("Spectral {}{}{}; the bands are {}.", name(info.kind),
+                            unit(info.kind).empty() ? "" : " in ", unit(info.kind),
+                            projectionWords(grid.projection)),
                 file);
     return header;
 }
@@ -205,7 +187,7 @@ CubeInfo cubeInfoFrom(const Imf::Header& header, bool emissive, std::vector<doub
     const std::string* units = findText(header, exr::emissiveUnits);
     if (quantity) {
         const auto kind = parseCubeKind(*quantity);
-        if (!kind || wordsOf(*kind).unit.empty() == emissive)
+        if (!kind || unit(*kind).empty() == emissive)
             throw InputError(
                 where, "spectrad:quantity is '" + printable(*quantity) + "', which its channels are not");
         info.kind = *kind;
@@ -239,8 +221,8 @@ CubeInfo cubeInfoFrom(const Imf::Header& header, bool emissive, std::vector<doub
         const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
         std::string key = it.name();
         if (!text || key == exr::layoutVersion || key == exr::emissiveUnits || key == "name" ||
-            key == "type" || std::any_of(kinds.begin(), kinds.end(), [&](auto& k) {
-                return k.unitAttribute && key == k.unitAttribute;
+            key == "type" || std::any_of(emissiveKinds.begin(), emissiveKinds.end(), [&](auto& k) {
+                return key == k.unitAttribute;
             }))
             continue;
         if (startsWith(key, exr::ourPrefix)) {

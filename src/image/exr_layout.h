@@ -5,7 +5,6 @@
 
 #include <ImfHeader.h>
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,11 +23,6 @@ inline constexpr const char* wavelengths = "wavelengths";
 inline constexpr const char* quantity = "quantity";
 
 }  // namespace exr
-
-[[nodiscard]] std::string_view name(CubeKind kind);
-[[nodiscard]] std::optional<CubeKind> parseCubeKind(std::string_view text);
-/// The unit of the values, "W.m^-2.sr^-1.nm^-1", "W.m^-2.nm^-1" or "" for a ratio.
-[[nodiscard]] std::string_view unit(CubeKind kind);
 
 /// The header of a cube: bands called `bands` and R, G, B of one pixel type. Throws InputError naming `file`
 /// for an attribute that cannot be written.
