@@ -1,7 +1,7 @@
 // Through the program, as users run it.
 #include "base/files.h"
 #include "scenes/scene_image.h"
-#include "unit/scene/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,7 +1,7 @@
 #include "scenes/scene_image.h"
 
 #include "render/renderer.h"
-#include "unit/scene/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>

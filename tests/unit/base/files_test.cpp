@@ -2,7 +2,7 @@
 #include "base/files.h"
 
 #include "base/error.h"
-#include "unit/scene/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "scene/graft_materials.h"
 #include "scene/reading.h"
-#include "unit/scene/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 

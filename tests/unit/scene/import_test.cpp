@@ -1,7 +1,7 @@
 #include "scene/import.h"
 
 #include "scene/import_isolate.h"
-#include "unit/scene/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 

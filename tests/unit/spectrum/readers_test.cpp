@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "spectrum/readers/reader.h"
-#include "unit/scene/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 

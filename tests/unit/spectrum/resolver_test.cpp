@@ -3,7 +3,7 @@
 
 #include "base/files.h"
 #include "spectrum/projection.h"
-#include "unit/scene/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
