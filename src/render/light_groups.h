@@ -2,9 +2,9 @@
 // only.
 #pragma once
 
+#include "render/world.h"
 #include "scene/scene.h"
 #include "types.h"
-#include "world.h"
 
 #include <vector>
 
