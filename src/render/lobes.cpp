@@ -31,8 +31,18 @@ struct Nodes {
     }
 };
 
-Nodes nodesFor(const Curve& curve) {
-    const auto [low, high] = curve.bounds();
+/// For the values that the curve takes within from…to, nm.
+Nodes nodesFor(const Curve& curve, double from, double to) {
+    std::vector<double> places{from, to};
+    curve.appendBreaks(from, to, places);
+    constexpr int steps = 64;  // formulae may bend between their breaks
+    for (int i = 1; i < steps; ++i)
+        places.push_back(from + (to - from) * i / steps);
+    double low = curve.at(from), high = low;
+    for (double place : places) {
+        low = std::min(low, curve.at(place));
+        high = std::max(high, curve.at(place));
+    }
     if (high - low <= 1e-9 * std::max(std::abs(high), 1e-30)) return {{0.5 * (low + high)}};
     // Chebyshev nodes; four leave less than 1e-6 of the reflectance of any glass, and are exact for Schlick's
     // polynomial squared.
@@ -195,7 +205,7 @@ void TermBuilder::addFacets(const std::vector<AngleFunction>& fresnel, const std
 
 void TermBuilder::addGloss(const Material& material) {
     const Curve& ior = material.gloss->ior.curve();
-    const Nodes nodes = nodesFor(ior);
+    const Nodes nodes = nodesFor(ior, grid_.nm.front(), grid_.nm.back());
     const double alpha = material.gloss->roughness * material.gloss->roughness;
     for (size_t i = 0; i < nodes.at.size(); ++i) {
         const double n = nodes.at[i];
@@ -223,7 +233,7 @@ void TermBuilder::addGloss(const Material& material) {
 
 void TermBuilder::addSpecular(const Material& material) {
     const Curve& r0 = material.specular->reflectance.curve();
-    const Nodes nodes = nodesFor(r0);
+    const Nodes nodes = nodesFor(r0, grid_.nm.front(), grid_.nm.back());
     const double alpha = material.specular->roughness * material.specular->roughness;
     for (size_t i = 0; i < nodes.at.size(); ++i) {
         const double r = nodes.at[i];
