@@ -35,39 +35,32 @@ struct Gauss {
     }
 };
 
-/// Sums over the distribution of normals visible from `cosine` (Heitz 2018), where the integrand is F · G2 /
-/// G1, smooth at any roughness: sums[i] for each Fresnel function, sums.back() for perfect mirrors.
-std::vector<double> singleScattering(double cosine, const std::vector<std::vector<sd_piece>>& fresnel,
-                                     double alpha) {
-    static const Gauss<32> radial;
-    constexpr int around = 48;
+/// ∫ of the single-scattering lobe over the light's directions, for each Fresnel function, and at the back for perfect mirrors.
+/// Goes over half vectors: of those at azimuth φ from the plane of incidence, all up to an angle known in closed form send light
+/// above the surface. Up to it the integrand is smooth; points crowd where it is not, at that end (tan θ = α tan ψ, and ψ by
+/// squares) and where cos φ changes sign. Errors stay below 5e-6 for α from 1e-4 to 1.
+std::vector<double> singleScattering(double cosine, const std::vector<std::vector<sd_piece>>& fresnel, double alpha) {
+    static const Gauss<24> rule;
+    constexpr double quarter = std::numbers::pi / 2;
     const double vz = std::max(cosine, 1e-6), vx = std::sqrt(std::max(0.0, 1 - vz * vz));
-    const double stretched = std::hypot(alpha * vx, vz);
-    const double hx = alpha * vx / stretched, hz = vz / stretched;
     const double a2 = alpha * alpha;
-    const auto lambda = [a2](double z) { return std::sqrt(a2 + (1 - a2) * z * z); };
+    const auto root = [a2](double z) { return std::sqrt(a2 + (1 - a2) * z * z); };
     std::vector<double> sums(fresnel.size() + 1, 0.0);
-    for (size_t i = 0; i < radial.x.size(); ++i) {
-        const double r = radial.x[i];
-        for (int k = 0; k < around; ++k) {
-            // Mirror-symmetric about the plane of incidence: half the circle counts for all of it.
-            const double phi = std::numbers::pi * (k + 0.5) / around;
-            const double s = 0.5 * (1 + hz), t1 = r * std::sin(phi);
-            const double t2 = (1 - s) * std::sqrt(1 - t1 * t1) + s * r * std::cos(phi);
-            const double t3 = std::sqrt(std::max(0.0, 1 - t1 * t1 - t2 * t2));
-            double nx = alpha * (t3 * hx - t2 * hz), nz = std::max(0.0, t2 * hx + t3 * hz);
-            const double length = std::hypot(nx, alpha * t1, nz);
-            if (length == 0) continue;
-            nx /= length;
-            nz /= length;
-            const double vh = std::clamp(vx * nx + vz * nz, 0.0, 1.0);
-            const double lz = 2 * vh * nz - vz;
+    for (size_t j = 0; j < 2 * rule.x.size(); ++j) {
+        // Mirror-symmetric about the plane of incidence: half the circle counts for all of it.
+        const size_t k = j % rule.x.size();
+        const double along = std::cos((j < rule.x.size() ? rule.x[k] : 1 + rule.x[k]) * quarter);
+        const double psiEnd = std::atan(std::tan(0.5 * std::atan2(vz, -vx * along)) / alpha);
+        for (size_t i = 0; i < rule.x.size(); ++i) {
+            const double left = 1 - rule.x[i], psi = psiEnd * (1 - left * left);
+            const double tangent = alpha * std::tan(psi), hz = 1 / std::sqrt(1 + tangent * tangent);
+            const double vh = vx * tangent * hz * along + vz * hz, lz = 2 * vh * hz - vz;
             if (lz <= 0) continue;
-            const double g1 = 2 * vz / (lambda(vz) + vz),
-                         g2 = 2 * lz * vz / (vz * lambda(lz) + lz * lambda(vz));
-            const double weight = radial.w[i] * 2 * r / around * g2 / g1;
-            for (size_t f = 0; f < fresnel.size(); ++f)
-                sums[f] += weight * evaluate(fresnel[f].data(), vh);
+            // D cos θ dω = sin 2ψ dψ dφ / 2π; the lobe times the light's cosine and dl/dh is D · visible · lz · 4 vh.
+            const double measure = 0.5 * rule.w[k] * psiEnd * rule.w[i] * 2 * left * std::sin(2 * psi);
+            const double visible = 0.5 / (vz * root(lz) + lz * root(vz));  // G2 / (4 vz lz)
+            const double weight = measure * visible * lz * 4 * vh / hz;
+            for (size_t f = 0; f < fresnel.size(); ++f) sums[f] += weight * evaluate(fresnel[f].data(), vh);
             sums.back() += weight;
         }
     }
@@ -119,7 +112,7 @@ OrenNayar orenNayar(double sigmaDegrees) {
         // 17).
         const double c = std::clamp(cosine, 0.0, 1.0), sine = std::sqrt(1 - c * c), theta = std::acos(c);
         const double g =
-            sine * (theta - sine * c) + (2.0 / 3.0) * (c > 1e-7 ? sine / c * (1 - sine * sine * sine) : 0.0);
+            sine * (theta - sine * c) + (2.0 / 3.0) * ((c > 1e-7 ? sine / c * (1 - sine * sine * sine) : 0.0) - sine);
         return a * (1 + ratio * g / pi);
     };
     model.mean = cosineMean(model.albedo);

@@ -253,7 +253,8 @@ void TermBuilder::addConductor(const Material& material) {
     const Conductor& metal = *material.conductor;
     const Curve &n = metal.ior.curves.at(0), &k = metal.ior.curves.at(1);
     const double alpha = metal.roughness * metal.roughness;
-    const double from = grid_.nm.front(), to = std::max(grid_.nm.back(), grid_.nm.front() + 1);
+    // All wavelengths that any band sees: a single one has a hat that reaches to both sides.
+    const double from = band(grid_, 0).from, to = std::max(band(grid_, grid_.size() - 1).to, from + 1);
     if (only_ == Only::fluorescence) return;
     const FresnelBasis basis = metal.schlick ? schlickBasis(n, k) : conductorBasis(n, k, from, to);
     if (metal.schlick)
