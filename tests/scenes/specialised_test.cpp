@@ -2,7 +2,7 @@
 #include "opencl/kernel_sources.h"
 #include "opencl/program.h"
 #include "scenes/scene_image.h"
-#include "unit/scene/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>

@@ -1,4 +1,0 @@
-// For the test that still names it here.
-#pragma once
-
-#include "support/temporary_folder.h"
