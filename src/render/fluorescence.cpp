@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace spectrad {
 
@@ -57,6 +58,7 @@ FluorescentBase::FluorescentBase(const Material& material, double inside, Notes&
         if (!part.matrixFile.empty()) addMatrix(part, material, notes);
     for (const Fluorescence& part : material.fluorescence)
         if (part.matrixFile.empty()) addSeparable(part);
+    checkAbsorption(material, notes);
     if (!separable_.empty() || !bispectral_.empty()) black_ = false;
 }
 
@@ -81,8 +83,24 @@ void FluorescentBase::addSeparable(const Fluorescence& part) {
                      ? Curve::combined({e, wavelength}, [](std::span<const double> v) { return v[0] / v[1]; })
                      : e;
     s.factor = part.yield * part.strength / total;
+    s.strength = part.strength;
     s.antiStokes = part.antiStokes;
     separable_.push_back(std::move(s));
+}
+
+void FluorescentBase::checkAbsorption(const Material& material, Notes& notes) const {
+    if (separable_.size() < 2) return;
+    std::vector<Curve> excitations;
+    for (const Separable& part : separable_)
+        excitations.push_back(part.excitation.scaled(part.strength));
+    const Curve together = Curve::combined(
+        excitations, [](std::span<const double> v) { return std::accumulate(v.begin(), v.end(), 0.0); });
+    const double most = together.bounds().second;
+    if (most > 1 + 1e-9)
+        notes.warn(material.where, fmt::format("the fluorophores of material '{}' together absorb up to {} "
+                                               "times what the base does not reflect: "
+                                               "energy is gained unless their strengths are lowered",
+                                               material.name, rounded(most, 4)));
 }
 
 void FluorescentBase::addMatrix(const Fluorescence& part, const Material& material, Notes& notes) {

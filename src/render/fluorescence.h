@@ -36,8 +36,9 @@ class FluorescentBase {
   private:
     struct Separable {
         Curve excitation;  ///< peak 1
-        Curve emission;    ///< in energy, integral over λ · e dλ divided out
-        double factor;     ///< Q · strength
+        Curve emission;    ///< in energy, as given
+        double factor;     ///< Q · strength ÷ that integral
+        double strength;
         bool antiStokes;
     };
     struct Bispectral {
@@ -45,6 +46,8 @@ class FluorescentBase {
         std::vector<std::vector<double>> value;  ///< diagonal and what lies below the excitation taken out
     };
     void addSeparable(const Fluorescence& part);
+    /// Fluorophores that share a wavelength cannot each take all of it.
+    void checkAbsorption(const Material& material, Notes& notes) const;
     void addMatrix(const Fluorescence& part, const Material& material, Notes& notes);
     [[nodiscard]] Curve glow(const Separable& part, const Curve& light) const;
     [[nodiscard]] Curve glow(const Bispectral& part, const Curve& light) const;
