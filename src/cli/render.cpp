@@ -279,8 +279,7 @@ ExitCode render(const RenderArguments& arguments) {
         ProgressBar bar("rendering", arguments.quiet);
         renderer.render(deliver, [&](double share) { bar.show(share); });
         seconds.build = renderer.times().build;
-        seconds.render =
-            renderer.times().render - seconds.write;  // the renderer waits while strips are taken from it
+        seconds.render = renderer.times().render;
     } else {
         const Cube cube = passes.render(*passNamed(scene, plan.passName));
         seconds.render = clock.lap();

@@ -42,7 +42,7 @@ using StripSink = std::function<void(int firstRow, int rows, const float* bands,
 using Progress = std::function<void(double)>;
 
 struct RenderTimes {
-    double build = 0, render = 0;  ///< s: compiling kernels; everything on the device
+    double build = 0, render = 0;  ///< s: compiling kernels; from geometry to strips, without what takes them
 };
 
 }  // namespace spectrad
