@@ -21,7 +21,6 @@ struct ImportedMaterial {
     std::array<double, 3> emissive{0, 0, 0};       ///< linear sRGB, ≥ 0
     std::optional<double> ior;                     ///< a coat, where the file states a specular part
     double roughness = 0.5;                        ///< of that coat or metal, 0…1; GGX alpha = roughness²
-    std::string diffuseTexture;                    ///< file name as stated; "" if none
 };
 struct ImportedLight {
     std::string name;

@@ -123,12 +123,16 @@ ImportedMaterial convert(const aiMaterial& from, bool last, const FormatTraits& 
     if (const auto emissive = colour(from, AI_MATKEY_COLOR_EMISSIVE))
         to.emissive = emission(*emissive, traits,
                                std::clamp(number(from, AI_MATKEY_EMISSIVE_INTENSITY).value_or(1), 0.0, 1e30));
+    return to;
+}
 
+/// The file's name for the picture on a surface, "" without one.
+std::string textureOf(const aiMaterial& from) {
     aiString texture;
     if (from.GetTexture(aiTextureType_BASE_COLOR, 0, &texture) == aiReturn_SUCCESS ||
         from.GetTexture(aiTextureType_DIFFUSE, 0, &texture) == aiReturn_SUCCESS)
-        to.diffuseTexture = oneLine(texture.C_Str());
-    return to;
+        return oneLine(texture.C_Str());
+    return {};
 }
 
 }  // namespace
@@ -141,7 +145,7 @@ std::vector<ImportedMaterial> convertMaterials(const aiScene& from, const Format
     for (unsigned i = 0; i < from.mNumMaterials; ++i) {
         materials.push_back(convert(*from.mMaterials[i], i + 1 == from.mNumMaterials, traits, remarks));
         if (number(*from.mMaterials[i], AI_MATKEY_OPACITY).value_or(1) < 1) ++transparent;
-        const std::string& texture = materials.back().diffuseTexture;
+        const std::string texture = textureOf(*from.mMaterials[i]);
         if (!texture.empty() && std::find(textures.begin(), textures.end(), texture) == textures.end())
             textures.push_back(texture);
     }

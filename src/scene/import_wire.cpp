@@ -153,7 +153,6 @@ void sceneFields(Wire& wire, AnyScene& scene) {
         w.plain(material.emissive);
         maybe(w, material.ior);
         w.plain(material.roughness);
-        w.text(material.diffuseTexture);
     });
     wire.list(scene.lights, [](Wire& w, auto& light) {
         w.text(light.name);

@@ -229,8 +229,4 @@ LiftedColour ColourLift::fit(Vector rgb) const {
     return {state.c};
 }
 
-LiftedColour liftReflectance(Vector linearSrgb, const Library& library) {
-    return ColourLift(library).fit(linearSrgb);
-}
-
 }  // namespace spectrad

@@ -41,7 +41,4 @@ class ColourLift {
     std::vector<std::array<double, 3>> weights_;  ///< X, Y, Z of D65 under a hat there, relative to the white
 };
 
-/// One colour; for several, keep a ColourLift.
-[[nodiscard]] LiftedColour liftReflectance(std::array<double, 3> linearSrgb, const Library& library);
-
 }  // namespace spectrad

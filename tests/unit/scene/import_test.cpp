@@ -135,7 +135,6 @@ TEST_CASE(
     REQUIRE(red.ior);
     CHECK(*red.ior == Approx(1.33).epsilon(1e-6));
     CHECK(red.roughness == Approx(0.5));  // (2 / (30 + 2))^¼
-    CHECK(red.diffuseTexture == "wood.png");
     CHECK(contains(s.remarks, "texture ignored: wood.png"));
     CHECK_FALSE(s.materials[s.meshMaterial[1]].ior);
     REQUIRE(s.filesRead.size() == 2);

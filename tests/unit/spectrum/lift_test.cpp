@@ -90,20 +90,20 @@ TEST_CASE("Colours close to black, to white and to the cube's faces lift too") {
 }
 
 TEST_CASE("Greys are exact constants, black exactly 0 and white exactly 1") {
-    const Library library = shipped();
+    const ColourLift lift(shipped());
     for (double grey : {0.0, 1e-6, 0.18, 0.5, 0.9, 1.0}) {
-        const LiftedColour lifted = liftReflectance({grey, grey, grey}, library);
+        const LiftedColour lifted = lift.fit({grey, grey, grey});
         CHECK(lifted.c[0] == 0);
         CHECK(lifted.c[1] == 0);
         CHECK(lifted.at(500) == Approx(grey).epsilon(1e-9));
         CHECK(lifted.curve().isConstant());
     }
-    CHECK(liftReflectance({0, 0, 0}, library).at(500) == 0);
-    CHECK(liftReflectance({1, 1, 1}, library).at(500) == 1);
+    CHECK(lift.fit({0, 0, 0}).at(500) == 0);
+    CHECK(lift.fit({1, 1, 1}).at(500) == 1);
 }
 
 TEST_CASE("A lifted colour's curve is its formula, held beyond 360 and 830 nm") {
-    const LiftedColour lifted = liftReflectance({0.8, 0.2, 0.1}, shipped());
+    const LiftedColour lifted = ColourLift(shipped()).fit({0.8, 0.2, 0.1});
     const Curve curve = lifted.curve();
     for (double nm : {300.0, 360.0, 433.3, 700.0, 830.0, 2000.0})
         CHECK(curve.at(nm) == lifted.at(nm));
@@ -118,8 +118,8 @@ TEST_CASE("A lifted colour's curve is its formula, held beyond 360 and 830 nm") 
 }
 
 TEST_CASE("Components that no surface has are refused") {
-    const Library library = shipped();
-    CHECK_THROWS_WITH(liftReflectance({1.5, 0, 0}, library), "linear RGB component 1.5 (allowed: 0 … 1)");
-    CHECK_THROWS_WITH(liftReflectance({0, -0.1, 0}, library), "linear RGB component -0.1 (allowed: 0 … 1)");
-    CHECK_THROWS_AS(liftReflectance({0, 0, NAN}, library), InputError);
+    const ColourLift lift(shipped());
+    CHECK_THROWS_WITH(lift.fit({1.5, 0, 0}), "linear RGB component 1.5 (allowed: 0 … 1)");
+    CHECK_THROWS_WITH(lift.fit({0, -0.1, 0}), "linear RGB component -0.1 (allowed: 0 … 1)");
+    CHECK_THROWS_AS(lift.fit({0, 0, NAN}), InputError);
 }
