@@ -31,17 +31,13 @@ std::optional<Strips> stripsOf(const Plan& plan, const std::optional<int>& numbe
     return Strips{device.info().name, renderer.stripRows(), renderer.bytesPerStrip()};
 }
 
-std::vector<std::string> namesOf(const std::vector<Camera>& cameras) {
+/// Of cameras or passes.
+template <typename Named>
+std::vector<std::string> namesOf(const std::vector<Named>& all) {
     std::vector<std::string> names;
-    for (const Camera& camera : cameras)
-        names.push_back(camera.name);
-    return names;
-}
-
-std::vector<std::string> namesOf(const std::vector<Pass>& passes) {
-    std::vector<std::string> names;
-    for (const Pass& pass : passes)
-        names.push_back(pass.name);
+    names.reserve(all.size());
+    for (const Named& one : all)
+        names.push_back(one.name);
     return names;
 }
 

@@ -71,7 +71,7 @@ void addObserverOptions(CLI::App& command, ObserverArguments& arguments) {
         ->type_name("LIGHT|XYZ|at:X,Y");
 }
 
-bool needsLight(const CubeInfo& info) {
+static bool needsLight(const CubeInfo& info) {
     return info.kind == CubeKind::reflectance || info.kind == CubeKind::transmittance;
 }
 
@@ -131,7 +131,7 @@ White Observation::statedWhite() const {
         white.name = "E";
         return white;
     }
-    const White known{name == info_.attributes.end() ? xyz->second : name->second, *stated, false};
+    White known{name == info_.attributes.end() ? xyz->second : name->second, *stated, false};
     if (detector_.name.ends_with("cie1931-2")) return known;
     // Another observer wants the light's spectrum. A name that is the library's says it; one of the scene's
     // own may by chance name another light here, which its chromaticity betrays.

@@ -67,7 +67,6 @@ class Observation {
     XyzMatrix toXyz_;  ///< of a detector without X, Y, Z
 };
 
-[[nodiscard]] bool needsLight(const CubeInfo& info);
 /// The largest Y of an XYZ image.
 [[nodiscard]] double brightest(const ChannelImage& xyz);
 
