@@ -12,9 +12,10 @@ typedef struct table_cell {
 
 #if defined(HAS_ROUGH) || defined(HAS_COATED) || defined(HAS_FACETS)
 static inline table_cell cell_of(vfloat cosine) {
-    const vfloat at = sqrt(clamp(cosine, 0.0f, 1.0f)) * (float)SD_CELLS;
+    /* Lanes that see something else may hold NaN here: fmax() makes them 0, clamp() need not. */
+    const vfloat at = sqrt(fmin(fmax(cosine, 0.0f), 1.0f)) * (float)SD_CELLS;
     table_cell c;
-    c.cell = min(V_INT(at), SD_CELLS - 1);
+    c.cell = min(V_INT(at), (vint)(SD_CELLS - 1));
     c.t = at - V_FLOAT(c.cell);
     return c;
 }

@@ -38,18 +38,19 @@ static texel_taps taps_at(sd_texture t, vfloat u, vfloat v) {
     const vfloat x = clamp(u, 0.0f, 1.0f) * (float)t.width, y = (1.0f - clamp(v, 0.0f, 1.0f)) * (float)t.height;
     texel_taps taps;
     if (t.filter == SD_NEAREST) {
-        taps.column0 = taps.column1 = min(V_INT(x), t.width - 1);
-        taps.row0 = taps.row1 = min(V_INT(y), t.height - 1);
+        taps.column0 = taps.column1 = min(V_INT(x), (vint)(t.width - 1));
+        taps.row0 = taps.row1 = min(V_INT(y), (vint)(t.height - 1));
         taps.right = taps.down = 0.0f;
         return taps;
     }
     const vfloat left = floor(x - 0.5f), top = floor(y - 0.5f);
     taps.right = (x - 0.5f) - left;
     taps.down = (y - 0.5f) - top;
-    taps.column0 = clamp(V_INT(left), 0, t.width - 1);
-    taps.column1 = clamp(V_INT(left) + 1, 0, t.width - 1);
-    taps.row0 = clamp(V_INT(top), 0, t.height - 1);
-    taps.row1 = clamp(V_INT(top) + 1, 0, t.height - 1);
+    const vint last_column = t.width - 1, last_row = t.height - 1;
+    taps.column0 = clamp(V_INT(left), (vint)0, last_column);
+    taps.column1 = clamp(V_INT(left) + 1, (vint)0, last_column);
+    taps.row0 = clamp(V_INT(top), (vint)0, last_row);
+    taps.row1 = clamp(V_INT(top) + 1, (vint)0, last_row);
     return taps;
 }
 

@@ -153,11 +153,14 @@ TEST_CASE("structs have the same layout on host and device") {
     CHECK(sizes == expected);
 }
 
-// The least that passes through every stage: what a simulator that checks each access can do in a minute
-// (tests/oclgrind).
-TEST_CASE("a tiny image agrees with the scalar twins", "[oclgrind]") {
-    const Device device = Device::open(std::nullopt);
-    for (int samples : {1, 4})
-        compare(device, randomPlan(static_cast<unsigned>(samples), samples, samples == 1, 6, 4));
-    compare(device, adversarialPlan(1, false));
+// The least that passes through every stage, in the form for CPUs (vectors) and for GPUs (work-groups),
+// whatever the device: what a simulator that checks each access can do in a minute (tests/oclgrind).
+TEST_CASE("a tiny image agrees with the scalar twins in both forms of the kernels", "[oclgrind]") {
+    for (const char* type : {"cpu", "gpu"}) {
+        const Device device = Device::open(std::nullopt);
+        device.body().info.type = type;
+        CAPTURE(type);
+        compare(device, randomPlan(4, 4, false, 6, 4));
+        compare(device, adversarialPlan(3, true));
+    }
 }

@@ -102,8 +102,8 @@ TEST_CASE("a patchwork that fills the image is 1 in every pixel, at any angle an
     std::sort(ragged.begin(), ragged.end());
     // Strips from 1e-7 of a pixel to pixels wide.
     std::vector<double> slivers{0, 1};
-    for (int i = 0; i < 200; ++i)
-        slivers.push_back(0.5 + (i % 2 ? 1 : -1) * 0.45 * std::pow(0.9, i));
+    for (int i = 0; i < 60; ++i)
+        slivers.push_back(0.5 + (i % 2 ? 1 : -1) * 0.45 * std::pow(0.7, i));
     std::sort(slivers.begin(), slivers.end());
     const std::vector<Mesh> cloths{
         patchwork(evenly(1), evenly(1), 4),     patchwork(evenly(64), evenly(64), 4),

@@ -43,7 +43,7 @@ Vec3 LitPlane::seen(int x, int y) const {
     const Vec3 shift = right * u + up * v;
     const Vec3 origin = orthographic ? from + shift : from, along = orthographic ? back * -1 : shift - back;
     const Vec3 n = normal();
-    return origin + along * (-dot(n, origin) / dot(n, along));
+    return (origin + along * (-dot(n, origin) / dot(n, along))) * unit;
 }
 
 double LitPlane::underPoint(Vec3 light, int x, int y) const {

@@ -15,14 +15,14 @@ struct LitPlane {
     double fov = 35, viewHeight = 2.5;    ///< degrees; scene units
     Vec3 axis{1, 0.4, 0.2};               ///< the plane is turned about it …
     double degrees = -40;
-    double size = 12;  ///< … and this wide
+    double size = 16;  ///< … and this wide
     double reflectance = 0.8;
     int width = 60, height = 44;
     double unit = 1;  ///< all lengths here are multiplied by it
 
     /// The scene with `lights` in it.
     [[nodiscard]] std::string scene(const std::string& lights, const std::string& attributes = "") const;
-    /// What the centre of a pixel sees.
+    /// What the centre of a pixel sees; this and what follows with `unit` applied.
     [[nodiscard]] Vec3 seen(int x, int y) const;
     /// The plane's unit normal on the camera's side.
     [[nodiscard]] Vec3 normal() const;

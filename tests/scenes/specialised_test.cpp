@@ -60,7 +60,8 @@ std::optional<std::string> preprocessed(const Plan& plan) {
 TEST_CASE("switches of the kernels name what the scene has, and nothing else") {
     const auto check = [](const std::string& text, const std::vector<std::string>& on) {
         const Plan plan = planOf(sceneFrom(text));
-        for (const char* name : {"HAS_COAT", "HAS_POINT", "HAS_SPOT", "HAS_DIRECTIONAL", "HAS_AMBIENT"}) {
+        for (const char* name : {"HAS_POINT", "HAS_SPOT", "HAS_DIRECTIONAL", "HAS_UNIFORM", "HAS_ROUGH",
+                                 "HAS_COATED", "HAS_FACETS", "HAS_TEXTURE"}) {
             CAPTURE(text, name);
             CHECK(defines(plan, name) == (std::find(on.begin(), on.end(), name) != on.end()));
         }
@@ -68,8 +69,11 @@ TEST_CASE("switches of the kernels name what the scene has, and nothing else") {
     check(scene(matt, lamp), {"HAS_POINT"});
     check(scene(matt, spot), {"HAS_SPOT"});
     check(scene(matt, sun), {"HAS_DIRECTIONAL"});
-    check(scene(matt, sky), {"HAS_AMBIENT"});
-    check(scene(shiny, lamp + sky), {"HAS_COAT", "HAS_POINT", "HAS_AMBIENT"});
+    check(scene(matt, sky), {"HAS_UNIFORM"});
+    check(scene(shiny, lamp + sky), {"HAS_COATED", "HAS_FACETS", "HAS_POINT", "HAS_UNIFORM"});
+    check(scene(R"(<diffuse reflectance="constant:0.5" roughness="20"/>)", sun),
+          {"HAS_ROUGH", "HAS_DIRECTIONAL"});
+    check(scene(R"(<conductor ior="metals/Au" roughness="0.3"/>)", lamp), {"HAS_FACETS", "HAS_POINT"});
     check(scene(matt, ""), {});
 }
 
@@ -90,10 +94,10 @@ TEST_CASE("code of features that a scene lacks is not given to the compiler") {
     const auto plain = preprocessed(planOf(sceneFrom(scene(matt, lamp)))),
                full = preprocessed(planOf(sceneFrom(scene(shiny, lamp + spot + sun + sky))));
     if (!plain || !full) return;
-    for (const std::string word : {"fresnel(", "look_up(", "axis_x *", "cos_outer) *"}) {
+    // Functions of tables, microfacets and uniform light, and the spot's fade.
+    for (const std::string word : {"look_up(", "facets(", "uniform_light(", "- light.cos_outer"}) {
         CAPTURE(word);
-        const bool structOnly = word.starts_with("axis");
-        if (!structOnly) CHECK(full->find(word) != std::string::npos);
+        CHECK(full->find(word) != std::string::npos);
         CHECK(plain->find(word) == std::string::npos);
     }
     CHECK(plain->size() < full->size());
