@@ -94,8 +94,10 @@ Json described(const Result& result, const CompareArguments& arguments) {
                            {"p95", colour.p95},
                            {"max", colour.max},
                            {"max_at", {colour.maxX, colour.maxY}}};
+        out["deltae76"] = {{"mean", colour.mean76}, {"max", colour.max76}};
     } else {
         out["deltae00"] = {{"mean", nullptr}, {"p95", nullptr}, {"max", nullptr}, {"max_at", nullptr}};
+        out["deltae76"] = {{"mean", nullptr}, {"max", nullptr}};
     }
     out["observer"] = arguments.observer.observer;
     out["white"] = {{"name", result.white.name}, {"XYZ", result.white.xyz}};

@@ -120,8 +120,12 @@ ColourDifference colourDifference(const ChannelImage& a, const ChannelImage& b, 
     std::vector<double> values(a.pixels());
     double sum = 0;
     for (size_t i = 0; i < values.size(); ++i) {
-        values[i] = deltaE00(lab(a.triple(i), white), lab(b.triple(i), white));
+        const Triple labA = lab(a.triple(i), white), labB = lab(b.triple(i), white);
+        values[i] = deltaE00(labA, labB);
         sum += values[i];
+        const double older = deltaE76(labA, labB);
+        result.mean76 += older;
+        result.max76 = std::max(result.max76, older);
     }
     const auto largest = std::max_element(values.begin(), values.end());
     const auto at = static_cast<long long>(largest - values.begin());
@@ -129,6 +133,7 @@ ColourDifference colourDifference(const ChannelImage& a, const ChannelImage& b, 
     result.maxX = static_cast<int>(at % a.width);
     result.maxY = static_cast<int>(at / a.width);
     result.mean = sum / static_cast<double>(values.size());
+    result.mean76 /= static_cast<double>(values.size());
     result.map.assign(values.begin(), values.end());
     result.p95 = quantile(values, 0.95);
     return result;
