@@ -112,6 +112,8 @@ TEST_CASE("Colour differences have the mean, percentile, maximum and place worke
             b.plane[c][i] = grey(lightness[1][i])[c];
         }
     const auto result = colourDifference(a, b, white);  // 0, 1, 2, 3, 0, 0: S_L is 1 at a mean L* of 50
+    CHECK(result.max76 == Approx(3).margin(1e-6));
+    CHECK(result.mean76 == Approx(1).margin(1e-6));
     CHECK(result.mean == Approx(1).epsilon(1e-10));
     CHECK(result.max == Approx(3).epsilon(1e-10));
     CHECK(result.maxX == 0);
