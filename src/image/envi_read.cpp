@@ -40,11 +40,11 @@ bool isFile(const fs::path& path) {
 
 fs::path findEnviData(const fs::path& path, const fs::path& header) {
     if (path != header) return path;
-    const fs::path stem = fs::path(header).replace_extension();  // of x.img.hdr: x.img
+    fs::path stem = fs::path(header).replace_extension();  // of x.img.hdr: x.img
     if (isFile(stem)) return stem;
     for (const char* extension :
          {".img", ".dat", ".raw", ".bsq", ".bil", ".bip", ".IMG", ".DAT", ".RAW", ".BSQ", ".BIL", ".BIP"})
-        if (const fs::path data = stem.string() + extension; isFile(data)) return data;
+        if (fs::path data = stem.string() + extension; isFile(data)) return data;
     throw InputError(
         {header.string()},
         "has no data file beside it (allowed: no extension, .img, .dat, .raw, .bsq, .bil, .bip)");

@@ -59,7 +59,8 @@ cl::Program fromBinary(const Device::Body& body, const std::string& bytes) {
     const cl::Program::Binaries binaries{{bytes.begin(), bytes.end()}};
     cl::Program program(body.context, {body.device}, binaries);
     program.build({body.device}, buildOptions(body).c_str());
-    // Arguments are bound by name, and not every driver keeps the names in its binaries: asking throws where they are gone.
+    // Arguments are bound by name, and not every driver keeps the names in its binaries: asking throws where
+    // they are gone.
     std::vector<cl::Kernel> kernels;
     program.createKernels(&kernels);
     for (const cl::Kernel& kernel : kernels)

@@ -35,11 +35,13 @@ struct Gauss {
     }
 };
 
-/// ∫ of the single-scattering lobe over the light's directions, for each Fresnel function, and at the back for perfect mirrors.
-/// Goes over half vectors: of those at azimuth φ from the plane of incidence, all up to an angle known in closed form send light
-/// above the surface. Up to it the integrand is smooth; points crowd where it is not, at that end (tan θ = α tan ψ, and ψ by
-/// squares) and where cos φ changes sign. Errors stay below 5e-6 for α from 1e-4 to 1.
-std::vector<double> singleScattering(double cosine, const std::vector<std::vector<sd_piece>>& fresnel, double alpha) {
+/// ∫ of the single-scattering lobe over the light's directions, for each Fresnel function, and at the back
+/// for perfect mirrors. Goes over half vectors: of those at azimuth φ from the plane of incidence, all up to
+/// an angle known in closed form send light above the surface. Up to it the integrand is smooth; points crowd
+/// where it is not, at that end (tan θ = α tan ψ, and ψ by squares) and where cos φ changes sign. Errors stay
+/// below 5e-6 for α from 1e-4 to 1.
+std::vector<double> singleScattering(double cosine, const std::vector<std::vector<sd_piece>>& fresnel,
+                                     double alpha) {
     static const Gauss<24> rule;
     constexpr double quarter = std::numbers::pi / 2;
     const double vz = std::max(cosine, 1e-6), vx = std::sqrt(std::max(0.0, 1 - vz * vz));
@@ -56,11 +58,13 @@ std::vector<double> singleScattering(double cosine, const std::vector<std::vecto
             const double tangent = alpha * std::tan(psi), hz = 1 / std::sqrt(1 + tangent * tangent);
             const double vh = vx * tangent * hz * along + vz * hz, lz = 2 * vh * hz - vz;
             if (lz <= 0) continue;
-            // D cos θ dω = sin 2ψ dψ dφ / 2π; the lobe times the light's cosine and dl/dh is D · visible · lz · 4 vh.
+            // D cos θ dω = sin 2ψ dψ dφ / 2π; the lobe times the light's cosine and dl/dh is D · visible · lz
+            // · 4 vh.
             const double measure = 0.5 * rule.w[k] * psiEnd * rule.w[i] * 2 * left * std::sin(2 * psi);
             const double visible = 0.5 / (vz * root(lz) + lz * root(vz));  // G2 / (4 vz lz)
             const double weight = measure * visible * lz * 4 * vh / hz;
-            for (size_t f = 0; f < fresnel.size(); ++f) sums[f] += weight * evaluate(fresnel[f].data(), vh);
+            for (size_t f = 0; f < fresnel.size(); ++f)
+                sums[f] += weight * evaluate(fresnel[f].data(), vh);
             sums.back() += weight;
         }
     }
@@ -111,8 +115,8 @@ OrenNayar orenNayar(double sigmaDegrees) {
         // ∫ over the hemisphere of the shape 1 + (B/A) s/t: closed form (Portsmouth, Kutz & Hill 2024, eq.
         // 17).
         const double c = std::clamp(cosine, 0.0, 1.0), sine = std::sqrt(1 - c * c), theta = std::acos(c);
-        const double g =
-            sine * (theta - sine * c) + (2.0 / 3.0) * ((c > 1e-7 ? sine / c * (1 - sine * sine * sine) : 0.0) - sine);
+        const double g = sine * (theta - sine * c) +
+                         (2.0 / 3.0) * ((c > 1e-7 ? sine / c * (1 - sine * sine * sine) : 0.0) - sine);
         return a * (1 + ratio * g / pi);
     };
     model.mean = cosineMean(model.albedo);

@@ -1,5 +1,6 @@
 #include "scenes/scene_image.h"
 
+#include "render/passes.h"
 #include "render/renderer.h"
 #include "support/temporary_folder.h"
 
@@ -59,7 +60,9 @@ Image imageOf(const Plan& plan) {
 }
 
 Image imageOf(const Scene& scene, const RenderSettings& settings) {
-    return imageOf(planOf(scene, settings));
+    Notes notes;
+    PassTextures passes(scene, library(), device(), settings, notes);
+    return imageOf(makePlan(scene, settings, library(), passes, notes));
 }
 
 Image imageOf(const std::string& text, const RenderSettings& settings) {

@@ -31,6 +31,7 @@ struct Image {
 
 /// Reads `text` as a scene file in a folder of its own.
 [[nodiscard]] Scene sceneFrom(const std::string& text);
+/// Without the passes that its textures come from.
 [[nodiscard]] Plan planOf(const Scene& scene, const RenderSettings& settings = {});
 [[nodiscard]] Image imageOf(const Plan& plan);
 [[nodiscard]] Image imageOf(const Scene& scene, const RenderSettings& settings = {});
