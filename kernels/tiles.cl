@@ -67,6 +67,31 @@ kernel void deal_tiles(global const sd_large* records, uint count, sd_frame fram
     }
 }
 
+/* Triangles drawn into a tile between two looks at how far it shows. */
+#define TILE_LOOK 16
+/* Pixels that one repetition of the pattern spans: what a step to the right moves by. */
+#define TILE_STEP (PATTERN / SLOTS)
+
+/* An edge function a x + b y + c at the lanes of a vector, divided by SD_SUBPIXEL and rounded down. Pixels are SD_SUBPIXEL apart,
+ * so that steps of a and b a pixel stay exact and no sign changes. |a|, |b| <= 2^24 (the guard band) change it by less than 2^30
+ * across a tile of 32 pixels; held within +-2^30 where the vectors start, it keeps its signs all over the tile in 32 bits.
+ * c: of the pixel where the vectors start. */
+static vint edge_at(int a, int b, long c, vint x, vint y) {
+    const vlong e = ((long)a * V_LONG(x) + (long)b * V_LONG(y) + c) >> 8;
+    return V_INT(clamp(e, (vlong)-(1L << 30), (vlong)(1L << 30)));
+}
+
+/* The largest key of `rows` rows of `lanes` samples. */
+static ulong furthest(global const ulong* cells, int rows, int lanes, size_t pitch) {
+    vulong most = 0;
+    for (int row = 0; row < rows; ++row, cells += pitch)
+        for (int lane = 0; lane < lanes; lane += VW) most = max(most, VLOAD(cells + lane));
+    ulong all[VW];
+    VSTORE(most, all);
+    for (int i = 1; i < VW; ++i) all[0] = max(all[0], all[i]);
+    return all[0];
+}
+
 /* One work-item a tile. pattern_x, pattern_y: PATTERN offsets of lanes, SD_SUBPIXEL-ths of a pixel from the vector's first pixel. */
 kernel void cover_tiles(global const sd_large* records, global const uint* tile_first, global const uint* tile_list,
                         sd_frame frame, constant int* pattern_x, constant int* pattern_y, global ulong* keys) {
@@ -74,42 +99,53 @@ kernel void cover_tiles(global const sd_large* records, global const uint* tile_
     if (tile >= frame.tiles_x * frame.tiles_y) return;
     const int size = 1 << frame.tile_shift;
     const int tile_col = (tile % frame.tiles_x) * size, tile_row = (tile / frame.tiles_x) * size;
+    const int end_col = min(tile_col + size, frame.pitch), end_row = min(tile_row + size, frame.rows);
     const int half_w = frame.width * (SD_SUBPIXEL / 2), half_h = frame.height * (SD_SUBPIXEL / 2);
+    const size_t pitch = (size_t)frame.pitch * SLOTS;
+    keys += tile_row * pitch + tile_col * SLOTS;
+    /* Triangles behind all that the tile shows are passed over; how far that is, is looked up now and then. */
+    ulong limit = EMPTY_KEY;
+    const uint turn = depth_turn(frame.orthographic);
+    int drawn = 0;
     for (uint n = tile_first[tile]; n < tile_first[tile + 1]; ++n) {
         const global sd_large* t = records + tile_list[n];
+        const uint nearest = as_uint(frame.orthographic ? t->key_min : t->key_max) ^ turn;
+        if (((ulong)nearest << 32 | t->id) > limit) continue;
         const int x_0 = t->x[0], y_0 = t->y[0];
         const int left = min(x_0, min(t->x[1], t->x[2])), right = max(x_0, max(t->x[1], t->x[2]));
         const int top = min(y_0, min(t->y[1], t->y[2])), bottom = max(y_0, max(t->y[1], t->y[2]));
         const int row0 = max(first_pixel(top, half_h) - frame.first_row, tile_row);
-        const int row1 = min(last_pixel(bottom, half_h) - frame.first_row, min(tile_row + size, frame.rows) - 1);
-        const int col0 = max(first_pixel(left, half_w), tile_col);
-        const int col1 = min(last_pixel(right, half_w), min(tile_col + size, frame.pitch) - 1);
-        if (col0 > col1) continue;
+        const int rows = min(last_pixel(bottom, half_h) - frame.first_row, end_row - 1) - row0 + 1;
+        const int col0 = max(first_pixel(left, half_w), tile_col) & -TILE_STEP;
+        const int cols = min(last_pixel(right, half_w), end_col - 1) - col0 + 1;
         /* Edge k runs from corner k to the next; relative to corner 0 the products stay below 2^50. */
+        const int x = col0 * SD_SUBPIXEL - half_w - x_0, y = (row0 + frame.first_row) * SD_SUBPIXEL - half_h - y_0;
         const int a0 = t->y[0] - t->y[1], b0 = t->x[1] - t->x[0], a1 = t->y[1] - t->y[2], b1 = t->x[2] - t->x[1];
         const int a2 = t->y[2] - t->y[0], b2 = t->x[0] - t->x[2];
-        const long c0 = edge_bias(a0, b0), c2 = edge_bias(a2, b2);
-        const long c1 = edge_bias(a1, b1) - ((long)a1 * (t->x[1] - x_0) + (long)b1 * (t->y[1] - y_0));
-        /* Vectors start at multiples of VW lanes. */
-        const int first_lane = col0 * SLOTS / VW * VW, end_lane = (col1 + 1) * SLOTS;
-        for (int row = row0; row <= row1; ++row) {
-            const int y = (row + frame.first_row) * SD_SUBPIXEL - half_h - y_0;
-            global ulong* cells = keys + (size_t)row * frame.pitch * SLOTS;
-            for (int lane = first_lane; lane < end_lane; lane += VW) {
-                const int x = (lane / SLOTS) * SD_SUBPIXEL - half_w - x_0;
-                const vlong dx = V_LONG(x + VLOAD(pattern_x + lane % PATTERN)), dy = V_LONG(y + VLOAD(pattern_y + lane % PATTERN));
-                const vlong e0 = (long)a0 * dx + (long)b0 * dy + c0, e1 = (long)a1 * dx + (long)b1 * dy + c1;
-                const vlong e2 = (long)a2 * dx + (long)b2 * dy + c2;
-                const vlong outside = e0 | e1 | e2;
-                const vlong in = outside >= 0;
-                if (!ANY(in)) continue;
-                const vdouble depth = fma((vdouble)t->key_x, V_DOUBLE(dx), fma((vdouble)t->key_y, V_DOUBLE(dy), (vdouble)t->key));
-                const vfloat key = clamp(V_FLOAT(depth), (vfloat)t->key_min, (vfloat)t->key_max);
-                const vuint bits = frame.orthographic ? AS_UINT(key) : ~AS_UINT(key);
-                const vulong word = (V_ULONG(bits) << 32) | (vulong)t->id;
-                const vulong old = VLOAD(cells + lane);
-                VSTORE(select(old, min(old, word), in), cells + lane);
+        const long c0 = (long)a0 * x + (long)b0 * y + edge_bias(a0, b0), c2 = (long)a2 * x + (long)b2 * y + edge_bias(a2, b2);
+        const long c1 = (long)a1 * (x + x_0 - t->x[1]) + (long)b1 * (y + y_0 - t->y[1]) + edge_bias(a1, b1);
+        const vdouble key_x = t->key_x;
+        const vfloat key_min = t->key_min, key_max = t->key_max;
+        for (int part = 0; part < PATTERN; part += VW) {
+            const vint offset_x = VLOAD(pattern_x + part), offset_y = VLOAD(pattern_y + part);
+            const vint start0 = edge_at(a0, b0, c0, offset_x, offset_y), start1 = edge_at(a1, b1, c1, offset_x, offset_y);
+            const vint start2 = edge_at(a2, b2, c2, offset_x, offset_y);
+            global ulong* cells = keys + (row0 - tile_row) * pitch + (col0 - tile_col) * SLOTS + part;
+            for (int row = 0; row < rows; ++row, cells += pitch) {
+                const vdouble down = fma((vdouble)t->key_y, V_DOUBLE(y + row * SD_SUBPIXEL + offset_y), (vdouble)t->key);
+                vint e0 = start0 + b0 * row, e1 = start1 + b1 * row, e2 = start2 + b2 * row;
+                for (int col = 0; col < cols; col += TILE_STEP, e0 += a0 * TILE_STEP, e1 += a1 * TILE_STEP, e2 += a2 * TILE_STEP) {
+                    const vint in = (e0 | e1 | e2) >= 0;
+                    if (LANE_BITS(in) == 0) continue;
+                    const vfloat key = V_FLOAT(fma(key_x, V_DOUBLE(x + col * SD_SUBPIXEL + offset_x), down));
+                    const vuint near = AS_UINT(clamp(key, key_min, key_max)) ^ turn;
+                    const vulong word = (V_ULONG(near) << 32) | (vulong)t->id;
+                    global ulong* cell = cells + col * SLOTS;
+                    const vulong old = VLOAD(cell);
+                    VSTORE(select(old, min(old, word), V_LONG(in)), cell);
+                }
             }
         }
+        if (++drawn % TILE_LOOK == 0) limit = furthest(keys, end_row - tile_row, (end_col - tile_col) * SLOTS, pitch);
     }
 }

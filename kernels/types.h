@@ -27,6 +27,8 @@ typedef double sd_double;
 #define SD_NEAR 1e-18f
 /* Triangles up to this many pixels across are rasterized where they are set up, larger ones by tiles. */
 #define SD_SMALL 8
+/* Triangles that a work-item of a CPU takes of those: their keys come from memory while others are set up. */
+#define SD_BATCH 16
 /* Samples of a tile, about: a tile of keys stays in the first-level cache. */
 #define SD_TILE_SAMPLES 4096
 

@@ -35,7 +35,8 @@ MemoryPlan planMemory(const Plan& plan, const DeviceInfo& device, int slots) {
     MemoryPlan memory;
     const std::uint64_t cubeRows = rowsIn(cubeBytes, cubeRow);
     std::uint64_t visibilityRows = rowsIn(keyBytes, keyRow);
-    if (visibilityRows > cubeRows) visibilityRows = visibilityRows / cubeRows * cubeRows;
+    if (visibilityRows > cubeRows && visibilityRows < height)
+        visibilityRows = visibilityRows / cubeRows * cubeRows;
     memory.visibilityRows = static_cast<int>(visibilityRows);
     memory.cubeRows = static_cast<int>(std::min(cubeRows, visibilityRows));
     memory.bytes = visibilityRows * keyRow + static_cast<std::uint64_t>(memory.cubeRows) * cubeRow;

@@ -8,6 +8,8 @@ namespace {
 
 std::vector<std::string> withDevice(std::vector<std::string> defines, const Device& device) {
     defines.push_back("VW=" + std::to_string(device.body().vectorWidth()));
+    if (device.info().platform == "Portable Computing Language" && device.info().type == "cpu")
+        defines.emplace_back("PREFETCH");
     return defines;
 }
 
@@ -43,7 +45,11 @@ sd_frame makeFrame(const Plan& plan, const LanePattern& lanes) {
     frame.height = plan.view.height;
     frame.pitch = (frame.width + SD_BLOCK - 1) / SD_BLOCK * SD_BLOCK;
     frame.samples = plan.samples;
-    while ((2 << frame.tile_shift) * (2 << frame.tile_shift) * lanes.slots <= SD_TILE_SAMPLES)
+    constexpr int maxTileSide = 32;  // what the edge functions of cover_tiles can cross in 32 bits
+    const auto fits = [&](int side) {
+        return side <= maxTileSide && side * side * lanes.slots <= SD_TILE_SAMPLES;
+    };
+    while (fits(2 << frame.tile_shift))
         ++frame.tile_shift;
     return frame;
 }
@@ -57,6 +63,7 @@ Stages::Stages(const Device& device, const Plan& plan, const LanePattern& lanes)
       triangles_(static_cast<std::uint32_t>(plan.triangles())),
       vertices_(static_cast<std::uint32_t>(plan.world.vertexDraw.size())),
       words_(static_cast<std::uint32_t>((plan.world.materials.size() + 31) / 32)),
+      slots_(static_cast<size_t>(lanes.slots)),
       geometry_(device, {"transform.cl", "clear.cl", "small.cl", "clip.cl", "tiles.cl"},
                 geometryDefines(plan, device)),
       shading_(device, {"materials.cl", "light.cl", "expand.cl"}, withDevice(plan.defines, device)),
@@ -75,8 +82,6 @@ Stages::Stages(const Device& device, const Plan& plan, const LanePattern& lanes)
       light_(shading_.kernel("light_block")),
       expand_(shading_.kernel("expand")) {
     uploadWorld();
-    slotX_.upload(device_, lanes.slotX.data(), lanes.slotX.size(), "the sample pattern");
-    slotY_.upload(device_, lanes.slotY.data(), lanes.slotY.size(), "the sample pattern");
     laneX_.upload(device_, lanes.laneX.data(), lanes.laneX.size(), "the sample pattern");
     laneY_.upload(device_, lanes.laneY.data(), lanes.laneY.size(), "the sample pattern");
     used_.upload(device_, lanes.used.data(), lanes.used.size(), "the sample pattern");
@@ -143,26 +148,28 @@ void Stages::zero(const cl::Buffer& buffer, size_t words) {
             [&] { device_.body().queue.enqueueFillBuffer(buffer, cl_uint{0}, 0, words * sizeof(cl_uint)); });
 }
 
-void Stages::cover() {
-    const size_t keyCount =
-        static_cast<size_t>(frame_.rows) * static_cast<size_t>(frame_.pitch) * (slotX_.capacity());
+void Stages::cover(int firstRow, int rows) {
+    frame_.first_row = firstRow;
+    frame_.rows = rows;
+    const size_t keyCount = static_cast<size_t>(rows) * static_cast<size_t>(frame_.pitch) * slots_;
     keys_.reserve(device_, keyCount, "the samples of a strip");
     clear_.set("keys", keys_.buffer())
         .set("count", static_cast<cl_ulong>(keyCount))
         .run((keyCount + 15) / 16, 64);
     if (triangles_ == 0) return;
     zero(counters_.buffer(), 4);
+    const bool scalar = device_.body().vectorWidth() == 1;
     small_.set("index", index_.buffer())
         .set("screen", screen_.buffer())
         .set("triangles", triangles_)
         .set("frame", frame_)
-        .set("sample_x", slotX_.buffer())
-        .set("sample_y", slotY_.buffer())
+        .set("pattern_x", laneX_.buffer())
+        .set("pattern_y", laneY_.buffer())
         .set("keys", keys_.buffer())
         .set("large", largeList_.buffer())
         .set("clip", clipList_.buffer())
         .set("counters", counters_.buffer())
-        .run(triangles_, 64);
+        .run(scalar ? triangles_ : (triangles_ + SD_BATCH - 1) / SD_BATCH, scalar ? 64 : 4);
     const std::uint32_t large = readNumber(counters_.buffer(), 0),
                         clipped = readNumber(counters_.buffer(), 1);
     if (large + clipped > 0) coverLarge(large, clipped);
@@ -227,9 +234,7 @@ void Stages::coverLarge(std::uint32_t large, std::uint32_t clipped) {
 }
 
 bool Stages::light(int firstRow, int rows) {
-    frame_.first_row = firstRow;
-    frame_.rows = rows;
-    cover();
+    cover(firstRow, rows);
 
     image_.firstRow = firstRow;
     image_.rows = rows;

@@ -27,6 +27,8 @@ class Stages {
     Stages(const Device& device, const Plan& plan, const LanePattern& lanes);
 
     void transform();
+    /// Coverage of `rows` rows: fills keys().
+    void cover(int firstRow, int rows);
     /// Coverage and lighting of `rows` rows: fills the term image. False if it is too large for the device.
     bool light(int firstRow, int rows);
     /// Rows [from, from + rows) of the lit strip, into cube [row][band][pitch] and preview [row][3][pitch].
@@ -38,7 +40,6 @@ class Stages {
 
   private:
     void uploadWorld();
-    void cover();
     void coverLarge(std::uint32_t large, std::uint32_t clipped);
     std::uint32_t readNumber(const cl::Buffer& buffer, size_t index);
     void zero(const cl::Buffer& buffer, size_t words);
@@ -47,6 +48,7 @@ class Stages {
     const Plan& plan_;
     sd_frame frame_{};
     std::uint32_t triangles_ = 0, vertices_ = 0, words_ = 1;
+    size_t slots_ = 1;
 
     Program geometry_, shading_;
     Kernel transform_, clear_, small_, setup_, clip_, count_, scan_, deal_, tiles_;
@@ -63,7 +65,7 @@ class Stages {
     DeviceArray<sd_light> lights_;
     DeviceArray<sd_texture> textures_;
     DeviceArray<std::uint32_t> spans_, previewSpans_;
-    DeviceArray<std::int32_t> slotX_, slotY_, laneX_, laneY_, used_;
+    DeviceArray<std::int32_t> laneX_, laneY_, used_;
 
     DeviceArray<std::uint64_t> keys_;
     DeviceArray<std::uint32_t> largeList_, clipList_, counters_, tileCounts_, tileFirst_, tileList_, sets_,
