@@ -20,7 +20,7 @@ constexpr int width = 1920, height = 1080, samples = 4;
 std::string wall(bool coated, int lights) {
     std::string text = fmt::format(R"(<scene version="1" unit="m">
 <wavelengths from="380" to="780" step="5"/>
-<material name="paint"><diffuse reflectance="0.5"/>{}</material>
+<material name="paint"><diffuse reflectance="constant:0.5"/>{}</material>
 <node name="wall"><plane size="20 20" material="paint"/></node>
 <camera name="eye" type="perspective" fov="40" look-from="0 0 4" look-at="0 0 0" size="{}x{}"/>
 )",
