@@ -72,7 +72,7 @@ void compare(const Device& device, const Plan& plan) {
         for (int column = 0; column < blocksX; ++column) {
             const size_t number = static_cast<size_t>(row * blocksX + column);
             const twin::Block block =
-                twin::light(plan, vertices, frame, lanes, keys, row, column, vectorWidth);
+                twin::light<float>(plan, vertices, frame, lanes, keys, row, column, vectorWidth);
             const std::vector<std::uint32_t> ours(term.begin() + first[number],
                                                   term.begin() + first[number + 1]);
             wrongTerms += ours != block.term;

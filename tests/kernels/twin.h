@@ -24,14 +24,18 @@ std::vector<std::uint64_t> cover(const World& world, const Vertices& vertices, c
                                  const LanePattern& lanes);
 
 /// g of one pixel: one float per term of the pixel's block, in the block's order of terms.
-struct Block {
+template <typename Real>
+struct BlockOf {
     std::vector<std::uint32_t> term;
-    std::vector<float> g;  // [term][SD_BLOCK]
+    std::vector<Real> g;  // [term][SD_BLOCK]
 };
+using Block = BlockOf<float>;
 /// `vectorWidth` decides the order in which samples are added (pairwise within 16 lanes, or one after
-/// another).
-Block light(const Plan& plan, const Vertices& vertices, const sd_frame& frame, const LanePattern& lanes,
-            const std::vector<std::uint64_t>& keys, int row, int blockColumn, int vectorWidth);
+/// another). Real: float for the twin; double, on the same float input, is the oracle of its rounding.
+template <typename Real>
+BlockOf<Real> light(const Plan& plan, const Vertices& vertices, const sd_frame& frame,
+                    const LanePattern& lanes, const std::vector<std::uint64_t>& keys, int row,
+                    int blockColumn, int vectorWidth);
 
 /// [band][SD_BLOCK]
 std::vector<float> expand(const Block& block, const std::vector<float>& spectra, size_t bands);

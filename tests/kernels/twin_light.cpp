@@ -12,120 +12,139 @@ namespace spectrad::twin {
 
 namespace {
 
-struct V {
-    float x, y, z;
+template <typename Real>
+struct VectorOf {
+    Real x, y, z;
 };
-float dot(V a, V b) {
+template <typename Real>
+Real dot(VectorOf<Real> a, VectorOf<Real> b) {
     return std::fma(a.z, b.z, std::fma(a.y, b.y, a.x * b.x));
 }
-V scaled(V a, float s) {
+template <typename Real>
+VectorOf<Real> scaled(VectorOf<Real> a, Real s) {
     return {a.x * s, a.y * s, a.z * s};
 }
-V crossed(V a, V b) {
+template <typename Real>
+VectorOf<Real> crossed(VectorOf<Real> a, VectorOf<Real> b) {
     return {std::fma(a.y, b.z, -(a.z * b.y)), std::fma(a.z, b.x, -(a.x * b.z)),
             std::fma(a.x, b.y, -(a.y * b.x))};
 }
-V unit(V a) {
-    const float square = dot(a, a);
-    return scaled(a, 1.0f / std::sqrt(square == 0.0f ? 1.0f : square));
+template <typename Real>
+VectorOf<Real> unit(VectorOf<Real> a) {
+    const Real square = dot(a, a);
+    return scaled(a, Real(1.0) / std::sqrt(square == Real(0.0) ? Real(1.0) : square));
 }
 
-struct Surface {
-    V position, normal, view;
-    float cosView;
-    float u, v;
+template <typename Real>
+struct SurfaceOf {
+    VectorOf<Real> position, normal, view;
+    Real cosView;
+    Real u, v;
 };
 
-float mixed(float b0, float v0, float b1, float v1, float b2, float v2) {
+template <typename Real>
+Real mixed(Real b0, Real v0, Real b1, Real v1, Real b2, Real v2) {
     return std::fma(b2, v2, std::fma(b1, v1, b0 * v0));
 }
 
-Surface surfaceAt(const World& world, const Vertices& vertices, const sd_frame& frame, std::uint32_t triangle,
-                  float x, float y) {
-    std::array<const float*, 3> p{}, n{};
-    for (size_t k = 0; k < 3; ++k) {
-        p[k] = vertices.camera.data() + 3 * size_t{world.index[3 * size_t{triangle} + k]};
-        n[k] = vertices.normal.data() + 3 * size_t{world.index[3 * size_t{triangle} + k]};
-    }
-    const float rx = x * frame.slope_per_subpixel, ry = -(y * frame.slope_per_subpixel);
-    std::array<float, 3> u{}, v{};
+template <typename Real>
+SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd_frame& frame,
+                          std::uint32_t triangle, Real x, Real y) {
+    const auto corners = [&](const std::vector<float>& of, size_t each) {
+        std::array<std::array<Real, 3>, 3> all{};
+        for (size_t k = 0; k < 3; ++k)
+            std::copy_n(of.data() + each * size_t{world.index[3 * size_t{triangle} + k]}, each,
+                        all[k].data());
+        return all;
+    };
+    const auto p = corners(vertices.camera, 3), n = corners(vertices.normal, 3);
+    const Real rx = x * frame.slope_per_subpixel, ry = -(y * frame.slope_per_subpixel);
+    std::array<Real, 3> u{}, v{};
     for (size_t k = 0; k < 3; ++k) {
         u[k] = frame.orthographic ? p[k][0] - rx : std::fma(rx, p[k][2], p[k][0]);
         v[k] = frame.orthographic ? p[k][1] - ry : std::fma(ry, p[k][2], p[k][1]);
     }
-    float b0 = std::fma(u[1], v[2], -(u[2] * v[1])), b1 = std::fma(u[2], v[0], -(u[0] * v[2])),
-          b2 = std::fma(u[0], v[1], -(u[1] * v[0]));
-    const float turn = std::copysign(1.0f, b0 + b1 + b2);
-    b0 = std::fmax(b0 * turn, 0.0f), b1 = std::fmax(b1 * turn, 0.0f), b2 = std::fmax(b2 * turn, 0.0f);
-    const float sum = b0 + b1 + b2;
+    Real b0 = std::fma(u[1], v[2], -(u[2] * v[1])), b1 = std::fma(u[2], v[0], -(u[0] * v[2])),
+         b2 = std::fma(u[0], v[1], -(u[1] * v[0]));
+    const Real turn = std::copysign(Real(1.0), b0 + b1 + b2);
+    b0 = std::fmax(b0 * turn, Real(0.0)), b1 = std::fmax(b1 * turn, Real(0.0)),
+    b2 = std::fmax(b2 * turn, Real(0.0));
+    const Real sum = b0 + b1 + b2;
     if (sum > 0) {
-        const float inv = 1.0f / sum;
+        const Real inv = Real(1.0) / sum;
         b0 *= inv, b1 *= inv, b2 *= inv;
     } else {
-        b0 = b1 = b2 = 1.0f / 3.0f;
+        b0 = b1 = b2 = Real(1.0) / 3;
     }
-    Surface s{};
+    SurfaceOf<Real> s{};
     s.position = {mixed(b0, p[0][0], b1, p[1][0], b2, p[2][0]), mixed(b0, p[0][1], b1, p[1][1], b2, p[2][1]),
                   mixed(b0, p[0][2], b1, p[1][2], b2, p[2][2])};
-    V normal{mixed(b0, n[0][0], b1, n[1][0], b2, n[2][0]), mixed(b0, n[0][1], b1, n[1][1], b2, n[2][1]),
-             mixed(b0, n[0][2], b1, n[1][2], b2, n[2][2])};
-    s.view = frame.orthographic ? V{0, 0, 1} : unit({-s.position.x, -s.position.y, -s.position.z});
-    const V e1{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]},
+    VectorOf<Real> normal{mixed(b0, n[0][0], b1, n[1][0], b2, n[2][0]),
+                          mixed(b0, n[0][1], b1, n[1][1], b2, n[2][1]),
+                          mixed(b0, n[0][2], b1, n[1][2], b2, n[2][2])};
+    s.view = frame.orthographic ? VectorOf<Real>{0, 0, 1}
+                                : unit<Real>({-s.position.x, -s.position.y, -s.position.z});
+    const VectorOf<Real> e1{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]},
         e2{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
-    const V face = crossed(e1, e2);
-    const float seen = dot(face, s.view), along = dot(face, normal);
+    const VectorOf<Real> face = crossed(e1, e2);
+    const Real seen = dot(face, s.view), along = dot(face, normal);
     normal = unit(normal);
-    s.normal = scaled(normal, std::copysign(1.0f, seen) * std::copysign(1.0f, along));
-    s.cosView = std::fmax(dot(s.normal, s.view), 1e-5f);
+    s.normal = scaled(normal, std::copysign(Real(1.0), seen) * std::copysign(Real(1.0), along));
+    s.cosView = std::fmax(dot(s.normal, s.view), Real(1e-5f));
     if (!world.uv.empty()) {
-        std::array<const float*, 3> t{};
-        for (size_t k = 0; k < 3; ++k)
-            t[k] = world.uv.data() + 2 * size_t{world.index[3 * size_t{triangle} + k]};
+        const auto t = corners(world.uv, 2);
         s.u = mixed(b0, t[0][0], b1, t[1][0], b2, t[2][0]);
         s.v = mixed(b0, t[0][1], b1, t[1][1], b2, t[2][1]);
     }
     return s;
 }
 
-constexpr float inversePi = 0.31830988618379067f;
+template <typename Real>
+constexpr Real inversePi = Real(0.31830988618379067);
 
-struct Cell {
+template <typename Real>
+struct CellOf {
     int cell;
-    float t;
+    Real t;
 };
-Cell cellOf(float cosine) {
-    const float at = std::sqrt(std::clamp(cosine, 0.0f, 1.0f)) * static_cast<float>(SD_CELLS);
+template <typename Real>
+CellOf<Real> cellOf(Real cosine) {
+    const Real at = std::sqrt(std::clamp(cosine, Real(0.0), Real(1.0))) * static_cast<Real>(SD_CELLS);
     const int cell = std::min(static_cast<int>(at), SD_CELLS - 1);
-    return {cell, at - static_cast<float>(cell)};
+    return {cell, at - static_cast<Real>(cell)};
 }
-float lookUp(const sd_piece* table, Cell at) {
+template <typename Real>
+Real lookUp(const sd_piece* table, CellOf<Real> at) {
     const float* c = table[at.cell].c;
     return std::fma(at.t, std::fma(at.t, std::fma(at.t, c[3], c[2]), c[1]), c[0]);
 }
 
-float arriving(const sd_light& light, V position, V& toLight) {
+template <typename Real>
+Real arriving(const sd_light& light, VectorOf<Real> position, VectorOf<Real>& toLight) {
     if (light.type == SD_LIGHT_DIRECTIONAL) {
         toLight = {light.x, light.y, light.z};
         return light.scale;
     }
-    const V d{light.x - position.x, light.y - position.y, light.z - position.z};
-    const float square = dot(d, d);
-    const float inv = 1.0f / (square == 0.0f ? 1.0f : square);
+    const VectorOf<Real> d{light.x - position.x, light.y - position.y, light.z - position.z};
+    const Real square = dot(d, d);
+    const Real inv = Real(1.0) / (square == Real(0.0) ? Real(1.0) : square);
     toLight = scaled(d, std::sqrt(inv));
-    float strength = light.scale * inv;
+    Real strength = light.scale * inv;
     if (light.type == SD_LIGHT_SPOT) {
-        const V axis{-light.axis_x, -light.axis_y, -light.axis_z};
-        const float t = std::clamp((dot(axis, toLight) - light.cos_outer) * light.inv_cos_range, 0.0f, 1.0f);
-        strength = strength * (t * t * std::fma(-2.0f, t, 3.0f));
+        const VectorOf<Real> axis{-light.axis_x, -light.axis_y, -light.axis_z};
+        const Real t =
+            std::clamp((dot(axis, toLight) - light.cos_outer) * light.inv_cos_range, Real(0.0), Real(1.0));
+        strength = strength * (t * t * std::fma(-Real(2.0), t, Real(3.0)));
     }
-    return square == 0.0f ? 0.0f : strength;
+    return square == Real(0.0) ? Real(0.0) : strength;
 }
 
 /// One band of a texture at the surface's coordinates.
-float texel(const World& world, const sd_texture& t, const Surface& s, int band) {
-    const float x = std::clamp(s.u, 0.0f, 1.0f) * static_cast<float>(t.width),
-                y = (1.0f - std::clamp(s.v, 0.0f, 1.0f)) * static_cast<float>(t.height);
-    const auto at = [&](int column, int row) {
+template <typename Real>
+Real texel(const World& world, const sd_texture& t, const SurfaceOf<Real>& s, int band) {
+    const Real x = std::clamp(s.u, Real(0.0), Real(1.0)) * static_cast<Real>(t.width),
+               y = (Real(1.0) - std::clamp(s.v, Real(0.0), Real(1.0))) * static_cast<Real>(t.height);
+    const auto at = [&](int column, int row) -> Real {
         return world
             .texels[t.first +
                     (static_cast<size_t>(std::clamp(row, 0, t.height - 1)) * static_cast<size_t>(t.width) +
@@ -134,32 +153,33 @@ float texel(const World& world, const sd_texture& t, const Surface& s, int band)
                     static_cast<size_t>(band)];
     };
     if (t.filter == SD_NEAREST) return at(static_cast<int>(x), static_cast<int>(y));
-    const float left = std::floor(x - 0.5f), top = std::floor(y - 0.5f), right = (x - 0.5f) - left,
-                down = (y - 0.5f) - top;
+    const Real left = std::floor(x - Real(0.5)), top = std::floor(y - Real(0.5)),
+               right = (x - Real(0.5)) - left, down = (y - Real(0.5)) - top;
     const int column = static_cast<int>(left), row = static_cast<int>(top);
-    const float a = std::fma(right, at(column + 1, row) - at(column, row), at(column, row));
-    const float b = std::fma(right, at(column + 1, row + 1) - at(column, row + 1), at(column, row + 1));
+    const Real a = std::fma(right, at(column + 1, row) - at(column, row), at(column, row));
+    const Real b = std::fma(right, at(column + 1, row + 1) - at(column, row + 1), at(column, row + 1));
     return std::fma(down, b - a, a);
 }
 
 /// Calls add(call, term, g) for everything that lobes and lights add to one sample; `call` orders the
 /// additions.
-void shade(const Plan& plan, const sd_material& material, const Surface& s,
-           const std::function<void(size_t, std::uint32_t, float)>& add) {
+template <typename Real>
+void shade(const Plan& plan, const sd_material& material, const SurfaceOf<Real>& s,
+           const std::function<void(size_t, std::uint32_t, Real)>& add) {
     const World& world = plan.world;
     const std::uint32_t groups = plan.groups;
     size_t call = 0;
     for (std::uint32_t l = 0; l < material.lobes; ++l) {
         const sd_lobe& lobe = world.lobes[material.first_lobe + l];
         if (lobe.type == SD_LOBE_EMISSION) {
-            add(call++, lobe.term, 1.0f);
+            add(call++, lobe.term, Real(1.0));
             continue;
         }
         const sd_piece* table = world.tables.data() + lobe.table;
-        const Cell viewCell = cellOf(s.cosView);
-        const float first = lobe.type == SD_LOBE_DIFFUSE ? 0.0f : lookUp(table, viewCell);
+        const CellOf<Real> viewCell = cellOf(s.cosView);
+        const Real first = lobe.type == SD_LOBE_DIFFUSE ? Real(0.0) : lookUp(table, viewCell);
         constexpr size_t callsALight = 64;
-        const auto paint = [&](size_t base, std::uint32_t term, float g) {
+        const auto paint = [&](size_t base, std::uint32_t term, Real g) {
             if (lobe.texture == 0) {
                 add(base, term, g);
                 return;
@@ -178,50 +198,54 @@ void shade(const Plan& plan, const sd_material& material, const Surface& s,
                     continue;
                 if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, light.scale);
                 if (lobe.type == SD_LOBE_ROUGH) {
-                    add(base, term, light.scale * (1.0f - first));
+                    add(base, term, light.scale * (Real(1.0) - first));
                     add(base + 1, term + groups, light.scale * first);
                 }
                 if (lobe.type == SD_LOBE_COATED) paint(base, term, light.scale * first * lobe.mean_through);
                 if (lobe.type == SD_LOBE_FACETS) {
                     for (std::uint32_t f = 0; f < lobe.functions; ++f)
                         add(base + f, term + f * groups,
-                            light.scale * inversePi * lookUp(table + (1 + f) * SD_CELLS, viewCell));
+                            light.scale * inversePi<Real> * lookUp(table + (1 + f) * SD_CELLS, viewCell));
                     if (lobe.multiple_to == lobe.functions)
                         add(base + lobe.functions, term + lobe.functions * groups,
-                            light.scale * inversePi * first);
+                            light.scale * inversePi<Real> * first);
                 }
                 continue;
             }
-            V toLight{};
-            const float strength = arriving(light, s.position, toLight);
-            const float cosLight = dot(s.normal, toLight);
+            VectorOf<Real> toLight{};
+            const Real strength = arriving(light, s.position, toLight);
+            const Real cosLight = dot(s.normal, toLight);
             if (!(cosLight > 0)) continue;
-            const float irradiance = strength * cosLight;
+            const Real irradiance = strength * cosLight;
             if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, irradiance);
             if (lobe.type == SD_LOBE_COATED)
                 paint(base, term, irradiance * (first * lookUp(table, cellOf(cosLight))));
             if (lobe.type == SD_LOBE_ROUGH) {
-                const float beyond = std::fma(-cosLight, s.cosView, dot(toLight, s.view));
-                const float divisor = beyond > 0 ? std::fmax(cosLight, s.cosView) : 1.0f;
-                const float single = lobe.mean_through * std::fma(lobe.alpha, beyond / divisor, 1.0f);
+                const Real beyond = std::fma(-cosLight, s.cosView, dot(toLight, s.view));
+                const Real divisor = beyond > 0 ? std::fmax(cosLight, s.cosView) : Real(1.0);
+                const Real single = lobe.mean_through * std::fma(lobe.alpha, beyond / divisor, Real(1.0));
                 add(base, term, irradiance * single);
                 add(base + 1, term + groups,
                     irradiance * (first * lookUp(table, cellOf(cosLight)) * lobe.multiple));
             }
             if (lobe.type == SD_LOBE_FACETS && lobe.alpha != 0) {
-                const V h = unit({toLight.x + s.view.x, toLight.y + s.view.y, toLight.z + s.view.z});
-                const float cosHalf = dot(s.normal, h), cosDiff = std::clamp(dot(s.view, h), 0.0f, 1.0f);
-                const V across = crossed(s.normal, h);
-                const float a2 = lobe.alpha * lobe.alpha;
-                const float width = std::fma(cosHalf * cosHalf, a2, dot(across, across));
-                const float shadowView = cosLight * std::sqrt(std::fma(s.cosView * s.cosView, 1.0f - a2, a2));
-                const float shadowLight = s.cosView * std::sqrt(std::fma(cosLight * cosLight, 1.0f - a2, a2));
-                const float shape =
-                    (a2 * inversePi) / (width * width) * 0.5f / (shadowView + shadowLight) * irradiance;
-                const float multiple = first * lookUp(table, cellOf(cosLight)) * lobe.multiple * irradiance;
-                const Cell facing = cellOf(cosDiff);
+                const VectorOf<Real> h =
+                    unit<Real>({toLight.x + s.view.x, toLight.y + s.view.y, toLight.z + s.view.z});
+                const Real cosHalf = dot(s.normal, h),
+                           cosDiff = std::clamp(dot(s.view, h), Real(0.0), Real(1.0));
+                const VectorOf<Real> across = crossed(s.normal, h);
+                const Real a2 = Real(lobe.alpha) * lobe.alpha;
+                const Real width = std::fma(cosHalf * cosHalf, a2, dot(across, across));
+                const Real shadowView =
+                    cosLight * std::sqrt(std::fma(s.cosView * s.cosView, Real(1.0) - a2, a2));
+                const Real shadowLight =
+                    s.cosView * std::sqrt(std::fma(cosLight * cosLight, Real(1.0) - a2, a2));
+                const Real shape = (a2 * inversePi<Real>) / (width * width) * Real(0.5) /
+                                   (shadowView + shadowLight) * irradiance;
+                const Real multiple = first * lookUp(table, cellOf(cosLight)) * lobe.multiple * irradiance;
+                const CellOf<Real> facing = cellOf(cosDiff);
                 for (std::uint32_t f = 0; f < lobe.functions; ++f) {
-                    float g = shape * lookUp(table + (1 + lobe.functions + f) * SD_CELLS, facing);
+                    Real g = shape * lookUp(table + (1 + lobe.functions + f) * SD_CELLS, facing);
                     if (f == lobe.multiple_to) g += multiple;
                     add(base + f, term + f * groups, g);
                 }
@@ -240,15 +264,18 @@ bool isTextured(const World& world, const sd_material& material, std::uint32_t t
     return textured;
 }
 
-float pairwise(const std::vector<float>& v, size_t from, size_t count) {
+template <typename Real>
+Real pairwise(const std::vector<Real>& v, size_t from, size_t count) {
     if (count == 1) return v[from];
     return pairwise(v, from, count / 2) + pairwise(v, from + count / 2, count / 2);
 }
 
 }  // namespace
 
-Block light(const Plan& plan, const Vertices& vertices, const sd_frame& frame, const LanePattern& lanes,
-            const std::vector<std::uint64_t>& keys, int row, int blockColumn, int vectorWidth) {
+template <typename Real>
+BlockOf<Real> light(const Plan& plan, const Vertices& vertices, const sd_frame& frame,
+                    const LanePattern& lanes, const std::vector<std::uint64_t>& keys, int row,
+                    int blockColumn, int vectorWidth) {
     const World& world = plan.world;
     const size_t slots = lanes.slotX.size();
     const std::uint64_t* cells = keys.data() + (static_cast<size_t>(row) * static_cast<size_t>(frame.pitch) +
@@ -261,14 +288,14 @@ Block light(const Plan& plan, const Vertices& vertices, const sd_frame& frame, c
     };
     for (size_t i = 0; i < SD_BLOCK * slots; ++i)
         materials.insert(materialOf(cells[i]));
-    Block block;
+    BlockOf<Real> block;
     std::vector<size_t> offset(world.materials.size());
     for (std::uint32_t m : materials) {
         offset[m] = block.term.size();
         for (std::uint32_t t = 0; t < world.materials[m].terms; ++t)
             block.term.push_back(world.materials[m].first_term + t);
     }
-    block.g.assign(block.term.size() * SD_BLOCK, 0.0f);
+    block.g.assign(block.term.size() * SD_BLOCK, Real(0.0));
     const auto lanesAtOnce = static_cast<size_t>(vectorWidth);
     const size_t group = std::min(slots, lanesAtOnce);  // lanes of one pixel that are added pairwise
     for (size_t lane = 0; lane < SD_BLOCK * slots; lane += group) {
@@ -287,42 +314,49 @@ Block light(const Plan& plan, const Vertices& vertices, const sd_frame& frame, c
             const sd_material& material = world.materials[m];
             // Each add of the kernel, in its order; lanes left at zero where the sample sees another triangle
             // or no light.
-            std::map<size_t, std::pair<std::uint32_t, std::vector<float>>> adds;
+            std::map<size_t, std::pair<std::uint32_t, std::vector<Real>>> adds;
             for (size_t i = 0; i < group; ++i) {
                 if (!lanes.used[(lane + i) % slots] || static_cast<std::uint32_t>(cells[lane + i]) != id)
                     continue;
-                const auto add = [&](size_t call, std::uint32_t term, float g) {
-                    auto& entry = adds.try_emplace(call, term, std::vector<float>(group, 0.0f)).first->second;
+                const auto add = [&](size_t call, std::uint32_t term, Real g) {
+                    auto& entry =
+                        adds.try_emplace(call, term, std::vector<Real>(group, Real(0.0))).first->second;
                     entry.second[i] = g;
                 };
                 if (id == 0xffffffffu) {
-                    if (material.terms > 0) add(0, 0, 1.0f);
+                    if (material.terms > 0) add(0, 0, Real(1.0));
                     continue;
                 }
                 const size_t slot = (lane + i) % slots;
                 const int sx = (blockColumn * SD_BLOCK + static_cast<int>(x)) * 256 - frame.width * 128 +
                                lanes.slotX[slot];
                 const int sy = row * 256 - frame.height * 128 + lanes.slotY[slot];
-                shade(plan, material,
-                      surfaceAt(world, vertices, frame, id, static_cast<float>(sx), static_cast<float>(sy)),
-                      add);
+                shade<Real>(
+                    plan, material,
+                    surfaceAt<Real>(world, vertices, frame, id, static_cast<Real>(sx), static_cast<Real>(sy)),
+                    add);
             }
             for (const auto& [call, entry] : adds) {
-                float& sum = block.g[(offset[m] + entry.first) * SD_BLOCK + x];
+                Real& sum = block.g[(offset[m] + entry.first) * SD_BLOCK + x];
                 if (!isTextured(world, material, entry.first)) {
                     sum += pairwise(entry.second, 0, group);
                     continue;
                 }
-                for (float g : entry.second)
+                for (Real g : entry.second)
                     if (g != 0) sum += g;  // a texture's bands are added lane by lane
             }
         }
     }
-    const float inverse = 1.0f / static_cast<float>(frame.samples);
-    for (float& g : block.g)
+    const Real inverse = Real(1.0) / static_cast<Real>(frame.samples);
+    for (Real& g : block.g)
         g *= inverse;
     return block;
 }
+
+template BlockOf<float> light(const Plan&, const Vertices&, const sd_frame&, const LanePattern&,
+                              const std::vector<std::uint64_t>&, int, int, int);
+template BlockOf<double> light(const Plan&, const Vertices&, const sd_frame&, const LanePattern&,
+                               const std::vector<std::uint64_t>&, int, int, int);
 
 std::vector<float> expand(const Block& block, const std::vector<float>& spectra, size_t bands) {
     std::vector<float> out(bands * SD_BLOCK, 0.0f);
