@@ -202,7 +202,7 @@ def chess():
             f'<library_nodes>\n{"".join(nodes)}</library_nodes>\n<library_visual_scenes><visual_scene id="game" name="Immortal Game">\n'
             f'<node name="board">\n<node name="frame">{dae_show("frame", "mahogany")}</node>\n{ranks}</node>\n<node name="men">\n{men}</node>\n'
             f'<node name="table">{dae_show("table", "baize")}</node>\n'
-            + placed("player", "camera", (20, 37, 70), (0.6, 0.4, 2.4)) + placed("window", "light", (-50, 70, 30), (0, 0, 0)) +
+            + placed("player", "camera", (22, 41, 77), (0.4, 0.4, 2.6)) + placed("window", "light", (-50, 70, 30), (0, 0, 0)) +
             placed("lamp", "light", (38, 34, -30), (0, 0, 0)) + placed("room", "light", (0, 50, 1), (0, 0, 0)) +
             '</visual_scene></library_visual_scenes>\n<scene><instance_visual_scene url="#game"/></scene>\n</COLLADA>\n')
 
