@@ -87,7 +87,11 @@ void addInfo(CLI::App& app, Action& action) {
     addDeviceOption(*command, arguments->scene.device);
     command->footer(
         "Of a scene: triangles, lights, materials, terms (light x lobe x material), features, bands, samples "
-        "a pixel, and on the device the rows of a strip and its bytes. Of a cube: size in pixels, "
+        "a pixel, and on the device the rows of a strip and its bytes; of its materials the fluorophores' "
+        "peaks, Stokes shift (nm) and quantum yield, what was changed in measured matrices, the largest "
+        "total "
+        "radiance factor, the error of the Fresnel terms, what comes back of white light. Of a cube: size in "
+        "pixels, "
         "wavelengths in nm, the smallest and largest value of each band (radiance in W.m^-2.sr^-1.nm^-1, "
         "reflectance 0 to 1). Of a spectrum: quantity, unit, range in nm, integral (unit x nm); of a light "
         "its chromaticity, CCT in K and Duv (CIE 1931); of a "

@@ -1,6 +1,7 @@
 // spectrad info SCENE: the plan, that is what this scene needs and nothing else, before anything is rendered.
 #include "base/text.h"
 #include "cli/info.h"
+#include "cli/info_material.h"
 #include "render/renderer.h"
 #include "spectrum/library.h"
 
@@ -41,7 +42,8 @@ std::vector<std::string> namesOf(const std::vector<Named>& all) {
     return names;
 }
 
-Json described(const Scene& scene, const Plan& plan, const std::optional<Strips>& strips) {
+Json described(const Scene& scene, const Plan& plan, const std::vector<MaterialReport>& materials,
+               const std::optional<Strips>& strips) {
     return {{"scene", scene.file},
             {"sha256", scene.sha256},
             {"camera", plan.cameraName},
@@ -63,7 +65,8 @@ Json described(const Scene& scene, const Plan& plan, const std::optional<Strips>
             {"white", {{"name", plan.whiteName}, {"XYZ", plan.white}}},
             {"device", strips ? Json(strips->device) : Json()},
             {"strip_rows", strips ? Json(strips->rows) : Json()},
-            {"bytes_per_strip", strips ? Json(strips->bytes) : Json()}};
+            {"bytes_per_strip", strips ? Json(strips->bytes) : Json()},
+            {"material_reports", described(materials)}};
 }
 
 void printTable(const Scene& scene, const Plan& plan, const std::optional<Strips>& strips) {
@@ -94,12 +97,15 @@ void printSceneInfo(const SceneArguments& arguments, bool json, Console& console
     const Library library = Library::open();
     const Scene scene = loadScene(arguments.file, library, loadOptions(arguments), console.notes());
     const Plan plan = makePlan(scene, settings, library, console.notes());
+    const std::vector<MaterialReport> materials = reportMaterials(scene, plan.wavelengths, library);
     const std::optional<Strips> strips = stripsOf(plan, deviceNumber(arguments.device), console.notes());
     console.printNotes();
-    if (json)
-        printJson(described(scene, plan, strips));
-    else
+    if (json) {
+        printJson(described(scene, plan, materials, strips));
+    } else {
         printTable(scene, plan, strips);
+        printMaterials(materials);
+    }
 }
 
 }  // namespace spectrad

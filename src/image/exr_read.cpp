@@ -2,6 +2,7 @@
 
 #include "image/cube_check.h"
 #include "image/exr_bands.h"
+#include "image/exr_guard.h"
 #include "image/exr_headers.h"
 #include "image/exr_layout.h"
 #include "image/exr_sink.h"
@@ -16,28 +17,10 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <new>
 
 namespace spectrad {
 
 namespace {
-
-/// Runs `read` and turns what OpenEXR throws at damaged files into one line.
-template <typename Read>
-auto readingExr(const std::filesystem::path& path, Read read) {
-    try {
-        return read();
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw InputError({path.string()}, "damaged, or more than the memory of this machine holds");
-    } catch (const std::exception& error) {
-        std::string words = error.what();
-        std::replace_if(
-            words.begin(), words.end(), [](unsigned char c) { return c < ' '; }, ' ');
-        throw InputError({path.string()}, "cannot be read as EXR: " + words);
-    }
-}
 
 /// A part with bands, opened for reading.
 struct SpectralPart {

@@ -1,10 +1,9 @@
 #include "render/fluorescence.h"
 
-#include "base/files.h"
 #include "base/text.h"
 #include "render/cumulative.h"
+#include "render/donaldson.h"
 #include "spectrum/projection.h"
-#include "spectrum/readers/reader.h"
 
 #include <fmt/format.h>
 
@@ -14,39 +13,6 @@
 #include <numeric>
 
 namespace spectrad {
-
-DonaldsonMatrix readDonaldson(const std::string& file) {
-    const SpectrumTable table = readTable(file);
-    DonaldsonMatrix matrix;
-    matrix.emission = table.nm;
-    std::vector<std::pair<double, size_t>> order;
-    for (size_t c = 0; c < table.header.size(); ++c) {
-        const std::string& name = table.header[c];
-        const std::optional<double> nm =
-            startsWith(name, "ex") ? parseDouble(std::string_view(name).substr(2)) : std::nullopt;
-        if (!nm || !(*nm > 0))
-            throw InputError(
-                file + ": column '" + name +
-                "' of a bispectral matrix is not called exNNN (NNN: excitation wavelength in nm)");
-        order.emplace_back(*nm, c);
-    }
-    std::sort(order.begin(), order.end());
-    for (size_t i = 0; i + 1 < order.size(); ++i)
-        if (order[i].first == order[i + 1].first)
-            throw InputError(file + ": two columns for the excitation wavelength " +
-                             shortest(order[i].first) + " nm");
-    if (order.size() < 2)
-        throw InputError(file + ": a bispectral matrix needs at least two excitation columns");
-    if (matrix.emission.size() < 2)
-        throw InputError(file + ": a bispectral matrix needs at least two emission rows");
-    matrix.value.assign(matrix.emission.size(), {});
-    for (const auto& [nm, column] : order) {
-        matrix.excitation.push_back(nm);
-        for (size_t row = 0; row < matrix.emission.size(); ++row)
-            matrix.value[row].push_back(table.columns[column][row]);
-    }
-    return matrix;
-}
 
 FluorescentBase::FluorescentBase(const Material& material, double inside, Notes& notes)
     : base_(Curve::constant(0)), inside_(inside) {
@@ -84,6 +50,7 @@ void FluorescentBase::addSeparable(const Fluorescence& part) {
                      : e;
     s.factor = part.yield * part.strength / total;
     s.strength = part.strength;
+    s.yield = part.yield;
     s.antiStokes = part.antiStokes;
     separable_.push_back(std::move(s));
 }
@@ -104,7 +71,7 @@ void FluorescentBase::checkAbsorption(const Material& material, Notes& notes) co
 }
 
 void FluorescentBase::addMatrix(const Fluorescence& part, const Material& material, Notes& notes) {
-    DonaldsonMatrix m = readDonaldson(part.matrixFile);
+    DonaldsonMatrix m = readDonaldson(part.matrixFile, notes);
     const auto& ex = m.excitation;
     const size_t columns = ex.size();
     Bispectral b;
@@ -116,9 +83,9 @@ void FluorescentBase::addMatrix(const Fluorescence& part, const Material& materi
         b.bandFrom.push_back(ex[i] - below / 2);
         b.bandTo.push_back(ex[i] + above / 2);
     }
+    b.changes.file = part.matrixFile;
+    b.changes.columns = columns;
     std::vector<double> diagonalNm, diagonal;
-    size_t zeroed = 0;
-    double zeroedMost = 0;
     for (size_t row = 0; row < m.emission.size(); ++row) {
         for (size_t i = 0; i < columns; ++i) {
             double& value = m.value[row][i];
@@ -127,57 +94,55 @@ void FluorescentBase::addMatrix(const Fluorescence& part, const Material& materi
                 diagonal.push_back(value);
                 value = 0;
             } else if (m.emission[row] < ex[i] && !part.antiStokes) {
-                if (value != 0) ++zeroed, zeroedMost = std::max(zeroedMost, std::abs(value));
+                if (value != 0) ++b.changes.zeroed;
+                b.changes.zeroedMost = std::max(b.changes.zeroedMost, std::abs(value));
                 value = 0;
             }
         }
     }
-    if (zeroed > 0)
+    if (b.changes.zeroed > 0)
         notes.say(
             fmt::format("{}: {} cells whose emission lies below the excitation set to zero (largest {})",
-                        part.matrixFile, zeroed, rounded(zeroedMost, 3)));
-    if (!part.diagonalNone) {
-        if (material.diffuse)
-            throw InputError(
-                part.where,
-                "the matrix's diagonal is the reflectance: leave out <diffuse>, or say diagonal=\"none\"");
-        if (diagonal.empty())
-            throw InputError(
-                part.where,
-                "the matrix has no diagonal (no row at an excitation wavelength): say diagonal=\"none\"");
-        if (!black_)
-            throw InputError(part.where,
-                             "two matrices with a diagonal: one of them must say diagonal=\"none\"");
-        size_t clipped = 0;
-        for (double& value : diagonal) {
-            if (value < 0) ++clipped;
-            value = std::max(value, 0.0);
-        }
-        if (clipped > 0)
-            notes.say(fmt::format("{}: {} negative reflectances on the diagonal set to zero", part.matrixFile,
-                                  clipped));
-        base_ = Curve::table(diagonalNm, diagonal, Outside::hold);
-        black_ = false;
-    }
-    // Energy out per energy in: what column i sends out over all wavelengths, per nm of its band, and what it
-    // reflects.
-    size_t tooMuch = 0;
-    double most = 0;
+                        part.matrixFile, b.changes.zeroed, rounded(b.changes.zeroedMost, 3)));
+    if (!part.diagonalNone) takeDiagonal(part, material, diagonalNm, std::move(diagonal), b.changes, notes);
+    b.value = std::move(m.value);
     for (size_t i = 0; i < columns; ++i) {
-        double out = 0;
-        for (size_t row = 0; row + 1 < m.emission.size(); ++row)
-            out += 0.5 * (m.value[row][i] + m.value[row + 1][i]) * (m.emission[row + 1] - m.emission[row]);
-        const double ratio = out / (b.bandTo[i] - b.bandFrom[i]) + (part.diagonalNone ? 0 : base_.at(ex[i]));
-        if (ratio > 1) ++tooMuch;
-        most = std::max(most, ratio);
+        const double reflected = part.diagonalNone ? 0 : base_.at(ex[i]);
+        const double energy = b.energyOut(i) + reflected;
+        if (energy > 1) ++b.changes.tooMuch;
+        b.changes.mostEnergy = std::max(b.changes.mostEnergy, energy);
+        b.changes.mostPhotons = std::max(b.changes.mostPhotons, b.photonsOut(i) + reflected);
     }
-    if (tooMuch > 0)
+    if (b.changes.tooMuch > 0)
         notes.warn(
             part.where,
             fmt::format("{}: {} excitation bands send out more energy than they take in (up to {} of it)",
-                        part.matrixFile, tooMuch, rounded(most, 4)));
-    b.value = std::move(m.value);
+                        part.matrixFile, b.changes.tooMuch, rounded(b.changes.mostEnergy, 4)));
     bispectral_.push_back(std::move(b));
+}
+
+void FluorescentBase::takeDiagonal(const Fluorescence& part, const Material& material,
+                                   const std::vector<double>& nm, std::vector<double> value,
+                                   MatrixChanges& changes, Notes& notes) {
+    if (material.diffuse)
+        throw InputError(
+            part.where,
+            "the matrix's diagonal is the reflectance: leave out <diffuse>, or say diagonal=\"none\"");
+    if (value.empty())
+        throw InputError(
+            part.where,
+            "the matrix has no diagonal (no row at an excitation wavelength): say diagonal=\"none\"");
+    if (!black_)
+        throw InputError(part.where, "two matrices with a diagonal: one of them must say diagonal=\"none\"");
+    for (double& v : value) {
+        if (v < 0) ++changes.clipped;
+        v = std::max(v, 0.0);
+    }
+    if (changes.clipped > 0)
+        notes.say(fmt::format("{}: {} negative reflectances on the diagonal set to zero", part.matrixFile,
+                              changes.clipped));
+    base_ = Curve::table(nm, std::move(value), Outside::hold);
+    black_ = false;
 }
 
 double FluorescentBase::amplified(double nm) const {

@@ -5,19 +5,37 @@
 #include "scene/scene.h"
 #include "spectrum/curve.h"
 
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace spectrad {
 
-/// A bispectral matrix as read: radiance factors D[row][column], row = emission, column = excitation band
-/// (both nm, ascending).
-struct DonaldsonMatrix {
-    std::vector<double> emission, excitation;
-    std::vector<std::vector<double>> value;
+/// What was changed in a matrix before it is used, and how the rest fares with energy.
+struct MatrixChanges {
+    std::string file;
+    size_t zeroed = 0;       ///< cells whose emission lies below the excitation, set to zero
+    double zeroedMost = 0;   ///< the largest of them
+    size_t clipped = 0;      ///< negative reflectances on the diagonal, set to zero
+    size_t columns = 0;      ///< excitation bands
+    size_t tooMuch = 0;      ///< of them: send out more energy than they take in
+    double mostEnergy = 0;   ///< energy out per energy in of the worst
+    double mostPhotons = 0;  ///< photons out per photon in of the worst
 };
-/// CSV or text: first column emission_nm, then a column exNNN for each excitation band. Throws InputError
-/// with file and line.
-[[nodiscard]] DonaldsonMatrix readDonaldson(const std::string& file);
+
+/// A fluorophore in figures.
+struct FluorophoreFigures {
+    /// Wavelengths of the largest excitation (photons out per photon in) and of the largest emission (energy
+    /// per nm, of a matrix in the column of the largest excitation). None for a shape without a peak.
+    std::optional<double> excitationPeak, emissionPeak;
+    /// Photons emitted per photon that the base does not reflect, for light at the excitation's peak.
+    double yield = 0;
+    std::optional<MatrixChanges> matrix;
+    [[nodiscard]] std::optional<double> stokesShift() const {  ///< nm
+        if (!excitationPeak || !emissionPeak) return std::nullopt;
+        return *emissionPeak - *excitationPeak;
+    }
+};
 
 /// The diffuse part of a material with its fluorophores, seen through a coat that sends `inside` of diffuse
 /// light back down.
@@ -32,23 +50,35 @@ class FluorescentBase {
     /// For each fluorophore ∫ M(λo, λi) E(λi) dλi over a light's irradiance E, as a curve over λo, coat
     /// included.
     [[nodiscard]] std::vector<Curve> reradiation(const Curve& light) const;
+    /// One for each fluorophore, in the order of reradiation().
+    [[nodiscard]] std::vector<FluorophoreFigures> figures() const;
 
   private:
     struct Separable {
         Curve excitation;  ///< peak 1
         Curve emission;    ///< in energy, as given
         double factor;     ///< Q · strength ÷ that integral
-        double strength;
+        double strength, yield;
         bool antiStokes;
     };
     struct Bispectral {
         std::vector<double> emission, bandCentre, bandFrom, bandTo;
         std::vector<std::vector<double>> value;  ///< diagonal and what lies below the excitation taken out
+        MatrixChanges changes;
+        [[nodiscard]] double width(size_t column) const { return bandTo[column] - bandFrom[column]; }
+        /// Photons out per photon in of a column (energy: without the ratio of wavelengths).
+        [[nodiscard]] double photonsOut(size_t column) const;
+        [[nodiscard]] double energyOut(size_t column) const;
     };
     void addSeparable(const Fluorescence& part);
     /// Fluorophores that share a wavelength cannot each take all of it.
     void checkAbsorption(const Material& material, Notes& notes) const;
     void addMatrix(const Fluorescence& part, const Material& material, Notes& notes);
+    /// Takes the diagonal as the base's reflectance.
+    void takeDiagonal(const Fluorescence& part, const Material& material, const std::vector<double>& nm,
+                      std::vector<double> value, MatrixChanges& changes, Notes& notes);
+    [[nodiscard]] FluorophoreFigures figuresOf(const Separable& part) const;
+    [[nodiscard]] FluorophoreFigures figuresOf(const Bispectral& part) const;
     [[nodiscard]] Curve glow(const Separable& part, const Curve& light) const;
     [[nodiscard]] Curve glow(const Bispectral& part, const Curve& light) const;
     [[nodiscard]] double amplified(double nm) const;

@@ -1,5 +1,6 @@
 // Materials as lobes: which reflectances depend on the angle (tables), which on the wavelength (terms), and
 // how much of the light each leaves to the next, so that nothing gains energy.
+#include "render/coat.h"
 #include "render/facets.h"
 #include "render/fluorescence.h"
 #include "render/fresnel.h"
@@ -17,67 +18,6 @@ namespace spectrad {
 namespace {
 
 constexpr double inversePi = 1 / std::numbers::pi;
-
-/// A coat whose optics depend on the wavelength through one number only (its index, or its reflectance at
-/// normal incidence) is evaluated at a few values of that number; at any other it is the polynomial through
-/// them.
-struct Nodes {
-    std::vector<double> at;
-    [[nodiscard]] double weight(size_t i, double value) const {
-        double w = 1;
-        for (size_t k = 0; k < at.size(); ++k)
-            if (k != i) w *= (value - at[k]) / (at[i] - at[k]);
-        return w;
-    }
-};
-
-/// For the values that the curve takes within from…to, nm.
-Nodes nodesFor(const Curve& curve, double from, double to) {
-    std::vector<double> places{from, to};
-    curve.appendBreaks(from, to, places);
-    constexpr int steps = 64;  // formulae may bend between their breaks
-    for (int i = 1; i < steps; ++i)
-        places.push_back(from + (to - from) * i / steps);
-    double low = curve.at(from), high = low;
-    for (double place : places) {
-        low = std::min(low, curve.at(place));
-        high = std::max(high, curve.at(place));
-    }
-    if (high - low <= 1e-9 * std::max(std::abs(high), 1e-30)) return {{0.5 * (low + high)}};
-    // Chebyshev nodes: four leave less than 1e-6 of the reflectance of any glass. Measured reflectances from
-    // dark to bright need more: light that bounces between rough facets is a geometric series in them.
-    const int count = high - low <= 0.1 ? 4 : high - low <= 0.4 ? 6 : 9;
-    Nodes nodes;
-    for (int i = 0; i < count; ++i)
-        nodes.at.push_back(0.5 * (low + high) +
-                           0.5 * (high - low) * std::cos(std::numbers::pi * (i + 0.5) / count));
-    return nodes;
-}
-
-/// A coat at one value of its number: what it reflects and what it lets through.
-struct Coat {
-    FacetAlbedos facets;
-    double again = 0;     ///< reflectance of light that bounces between facets
-    double multiple = 0;  ///< factor of missing · missing, 1/sr
-    AngleFunction albedo, through;
-    double meanThrough = 1;
-};
-
-Coat coatOf(const AngleFunction& fresnel, double alpha) {
-    Coat coat;
-    coat.facets = facetAlbedos({fresnel}, alpha);
-    coat.again = multipleScattering(cosineMean(fresnel), coat.facets.whiteMean);
-    // What misses less than a millionth sends nothing round again.
-    const double missingMean = 1 - coat.facets.whiteMean;
-    coat.multiple = missingMean > 1e-6 ? coat.again * inversePi / missingMean : 0;
-    const double again = missingMean > 1e-6 ? coat.again : 0;
-    coat.albedo = [single = coat.facets.albedo.front(), white = coat.facets.white, again](double c) {
-        return std::clamp(single(c) + (1 - white(c)) * again, 0.0, 1.0);
-    };
-    coat.through = [albedo = coat.albedo](double c) { return 1 - albedo(c); };
-    coat.meanThrough = cosineMean(coat.through);
-    return coat;
-}
 
 const Curve& one() {
     static const Curve curve = Curve::constant(1);

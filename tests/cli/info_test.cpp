@@ -67,3 +67,35 @@ TEST_CASE("info on what does not exist says so") {
     folder.write("bad.csv", "400,1\n500,x\n");
     requireError(run(folder, {"info", "bad.csv"}), 1, "bad.csv:2");
 }
+
+TEST_CASE("info on a scene reports its materials: fluorophores, matrices, Fresnel terms, white light") {
+    const Folder folder;
+    folder.write("m.csv", "emission_nm,ex400,ex420\n400,0.5,0.01\n420,0.2,0.6\n440,0.1,0.2\n");
+    folder.write("s.xml", R"(<scene version="1"><wavelengths from="380" to="720" step="20"/>
+<material name="paper"><fluorescence matrix="m.csv"/></material>
+<material name="gold"><conductor ior="metals/Au" roughness="0.4" fresnel="schlick"/></material>
+<material name="wall"><diffuse reflectance="constant:0.5"/></material>
+<sphere material="paper"/><sphere material="gold"/><sphere material="wall"/>
+<light type="directional" direction="0 0 -1" spectrum="illuminants/D65" illuminance="1000 lx"/>
+<camera size="16x16"/></scene>)");
+    const json materials = run(folder, {"info", "s.xml", "--json"}).json().at("material_reports");
+    const auto of = [&](const std::string& name) {
+        for (const json& material : materials)
+            if (material.at("name") == name) return material;
+        FAIL("no report on " << name);
+        return json();
+    };
+    const json paper = of("paper").at("fluorescence").at(0);
+    CHECK(paper.at("stokes_shift_nm") == 20);
+    CHECK(paper.at("quantum_yield").get<double>() > 0.3);
+    CHECK(paper.at("matrix").at("cells_zeroed") == 1);
+    CHECK(of("paper").at("peak_total_radiance_factor").at(0).at("light") == "illuminants/D65");
+    CHECK(of("gold").at("fresnel").at("model") == "schlick");
+    CHECK(of("gold").at("fresnel").at("largest_error").get<double>() > 0.001);
+    CHECK(of("gold").at("furnace").at("most").get<double>() <= 1);
+    CHECK_FALSE(of("wall").contains("fresnel"));
+    const std::string text = run(folder, {"info", "s.xml"}).out;
+    CHECK_THAT(text, Catch::Contains("Stokes shift 20 nm") && Catch::Contains("Schlick's formula") &&
+                         Catch::Contains("total radiance factor"));
+    CHECK_THAT(text, !Catch::Contains("material   wall"));
+}

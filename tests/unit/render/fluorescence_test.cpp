@@ -2,8 +2,10 @@
 // library's integrals.
 #include "render/fluorescence.h"
 
+#include "render/donaldson.h"
 #include "spectrum/library.h"
 #include "spectrum/projection.h"
+#include "support/bispectral_exr.h"
 #include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
@@ -304,13 +306,14 @@ TEST_CASE("a Donaldson matrix is read as written, in any order of its columns") 
     const TemporaryFolder folder;
     const auto path = folder.write(
         "m.csv", "# measured\nemission_nm,ex420,ex400\n400,0.01,0.5\n420,0.6,0.2\n440,0.3,0.1\n");
-    const DonaldsonMatrix m = readDonaldson(path.string());
+    Notes notes;
+    const DonaldsonMatrix m = readDonaldson(path.string(), notes);
     CHECK(m.emission == std::vector<double>{400, 420, 440});
     CHECK(m.excitation == std::vector<double>{400, 420});
     CHECK(m.value == std::vector<std::vector<double>>{{0.5, 0.01}, {0.2, 0.6}, {0.1, 0.3}});
     const auto refused = [&](const std::string& text, const std::string& word) {
         try {
-            (void)readDonaldson(folder.write("bad.csv", text).string());
+            (void)readDonaldson(folder.write("bad.csv", text).string(), notes);
             FAIL("not refused: " << text);
         } catch (const InputError& error) {
             CHECK(std::string(error.what()).find(word) != std::string::npos);
@@ -379,11 +382,11 @@ TEST_CASE(
             WARN("skipped: no " << path.string());
             continue;
         }
-        const DonaldsonMatrix m = readDonaldson(path.string());
+        Notes notes;
+        const DonaldsonMatrix m = readDonaldson(path.string(), notes);
         REQUIRE((m.emission.size() == 41 && m.excitation.size() == 49));
         Fluorescence f;
         f.matrixFile = path.string();
-        Notes notes;
         const FluorescentBase base(materialOf({f}, std::nullopt), 0, notes);
         for (const std::string lampName : {"illuminants/D65", "illuminants/A", "lamps/uv-365"}) {
             const Curve light = library().find(lampName).value().curve();
@@ -415,6 +418,68 @@ TEST_CASE(
                 CAPTURE(name, lampName, j);
                 CHECK(std::abs(got[j] - want[j]) <= 1e-6 * std::max(std::abs(want[j]), 1e-3 * peak));
             }
+        }
+    }
+}
+
+TEST_CASE("a matrix in the bispectral EXR layout glows as the same matrix in a text") {
+    const TemporaryFolder folder;
+    const std::string csv = "emission_nm,ex400,ex420\n400,0.5,0\n420,0.25,0.625\n440,0.125,0.375\n";
+    Fluorescence text, image;
+    text.matrixFile = folder.write("m.csv", csv).string();
+    image.matrixFile = (folder.path() / "m.exr").string();
+    test::writeBispectral(
+        image.matrixFile,
+        {{400, 400, 0.5}, {420, 420, 0.625}, {400, 420, 0.25}, {400, 440, 0.125}, {420, 440, 0.375}});
+    Notes notes;
+    const DonaldsonMatrix read = readDonaldson(image.matrixFile, notes),
+                          same = readDonaldson(text.matrixFile, notes);
+    CHECK(read.emission == same.emission);
+    CHECK(read.excitation == same.excitation);
+    CHECK(read.value == same.value);
+    CHECK(notes.lines().empty());  // below the diagonal no channel is missed
+    test::writeBispectral(image.matrixFile, {{400, 400, 0.5}, {420, 420, 0.6}, {400, 440, 0.1}});
+    (void)readDonaldson(image.matrixFile, notes);
+    REQUIRE(notes.lines().size() == 1);
+    CHECK_THAT(notes.lines().front(), Catch::Contains("2 of 6 pairs"));
+}
+
+TEST_CASE(
+    "matrices measured at RIT: through an EXR and back the same glow, and never more photons than came") {
+    for (const std::string name : {"ciba12", "herpiora", "ixcrlale", "php8hp1c"}) {
+        const std::filesystem::path path =
+            std::filesystem::path(SPECTRAD_SHARED) / "data/fluorescence/bispectral_rit" / (name + ".csv");
+        if (!std::filesystem::exists(path)) {
+            WARN("skipped: no " << path.string());
+            continue;
+        }
+        const TemporaryFolder folder;
+        Notes notes;
+        const DonaldsonMatrix m = readDonaldson(path.string(), notes);
+        std::vector<BispectralCell> cells;
+        for (size_t r = 0; r < m.emission.size(); ++r)
+            for (size_t i = 0; i < m.excitation.size(); ++i)
+                cells.push_back({m.excitation[i], m.emission[r], m.value[r][i]});
+        Fluorescence text, image;
+        text.matrixFile = path.string();
+        image.matrixFile = (folder.path() / "m.exr").string();
+        test::writeBispectral(image.matrixFile, cells);
+        const FluorescentBase a(materialOf({text}, std::nullopt), 0, notes),
+            b(materialOf({image}, std::nullopt), 0, notes);
+        CAPTURE(name);
+        CHECK(b.figures().at(0).matrix->zeroed == a.figures().at(0).matrix->zeroed);
+        CHECK(a.figures().at(0).matrix->mostPhotons <= 1);
+        CHECK(a.figures().at(0).stokesShift() == b.figures().at(0).stokesShift());
+        for (const std::string lampName : {"illuminants/D65", "illuminants/A", "lamps/uv-365"}) {
+            const Curve light = library().find(lampName).value().curve();
+            const std::vector<double> want = projected(a.reradiation(light).front()),
+                                      got = projected(b.reradiation(light).front());
+            const double peak = *std::max_element(want.begin(), want.end());
+            for (size_t j = 0; j < want.size(); ++j)
+                CHECK(std::abs(got[j] - want[j]) <= 1e-6 * peak);  // cells are floats in the file
+            const Curve both = Curve::combined({light, a.reflectance()},
+                                               [](std::span<const double> v) { return v[0] * v[1]; });
+            CHECK(photonsOf(both) + photonsOf(a.reradiation(light).front()) <= photonsOf(light));
         }
     }
 }

@@ -1,0 +1,80 @@
+#include "render/coat.h"
+
+#include "render/fresnel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace spectrad {
+
+double Nodes::weight(size_t i, double value) const {
+    double w = 1;
+    for (size_t k = 0; k < at.size(); ++k)
+        if (k != i) w *= (value - at[k]) / (at[i] - at[k]);
+    return w;
+}
+
+namespace {
+
+/// Wavelengths that show all values the curve takes within from…to; formulae may bend between their breaks.
+std::vector<double> placesOn(const Curve& curve, double from, double to) {
+    std::vector<double> places{from, to};
+    curve.appendBreaks(from, to, places);
+    constexpr int steps = 64;
+    for (int i = 1; i < steps; ++i)
+        places.push_back(from + (to - from) * i / steps);
+    return places;
+}
+
+}  // namespace
+
+Nodes nodesFor(const Curve& curve, double from, double to) {
+    double low = curve.at(from), high = low;
+    for (double place : placesOn(curve, from, to)) {
+        low = std::min(low, curve.at(place));
+        high = std::max(high, curve.at(place));
+    }
+    if (high - low <= 1e-9 * std::max(std::abs(high), 1e-30)) return {{0.5 * (low + high)}};
+    // Chebyshev nodes: four leave less than 1e-6 of the reflectance of any glass. Measured reflectances from
+    // dark to bright need more: light that bounces between rough facets is a geometric series in them.
+    const int count = high - low <= 0.1 ? 4 : high - low <= 0.4 ? 6 : 9;
+    Nodes nodes;
+    for (int i = 0; i < count; ++i)
+        nodes.at.push_back(0.5 * (low + high) +
+                           0.5 * (high - low) * std::cos(std::numbers::pi * (i + 0.5) / count));
+    return nodes;
+}
+
+double interpolationError(const Nodes& nodes, const Curve& ior, double from, double to) {
+    double worst = 0;
+    for (double place : placesOn(ior, from, to)) {
+        const double n = ior.at(place);
+        for (int i = 0; i <= 90; ++i) {
+            const double c = std::cos(i * std::numbers::pi / 180), exact = fresnelDielectric(c, n);
+            double sum = 0;
+            for (size_t k = 0; k < nodes.at.size(); ++k)
+                sum += nodes.weight(k, n) * fresnelDielectric(c, nodes.at[k]);
+            if (exact > 0) worst = std::max(worst, std::abs(sum - exact) / exact);
+        }
+    }
+    return worst;
+}
+
+Coat coatOf(const AngleFunction& fresnel, double alpha) {
+    Coat coat;
+    coat.facets = facetAlbedos({fresnel}, alpha);
+    coat.again = multipleScattering(cosineMean(fresnel), coat.facets.whiteMean);
+    // What misses less than a millionth sends nothing round again.
+    const double missingMean = 1 - coat.facets.whiteMean;
+    coat.multiple = missingMean > 1e-6 ? coat.again * std::numbers::inv_pi / missingMean : 0;
+    const double again = missingMean > 1e-6 ? coat.again : 0;
+    coat.albedo = [single = coat.facets.albedo.front(), white = coat.facets.white, again](double c) {
+        return std::clamp(single(c) + (1 - white(c)) * again, 0.0, 1.0);
+    };
+    coat.through = [albedo = coat.albedo](double c) { return 1 - albedo(c); };
+    coat.meanThrough = cosineMean(coat.through);
+    return coat;
+}
+
+}  // namespace spectrad

@@ -1,0 +1,180 @@
+#include "render/material_report.h"
+
+#include "colour/detector.h"
+#include "render/coat.h"
+#include "render/fresnel.h"
+#include "render/term_table.h"
+#include "spectrum/projection.h"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <set>
+
+namespace spectrad {
+
+namespace {
+
+std::vector<std::string> lobesOf(const Material& m) {
+    std::vector<std::string> lobes;
+    if (m.diffuse) lobes.emplace_back("diffuse");
+    if (m.gloss) lobes.emplace_back("gloss");
+    if (m.specular) lobes.emplace_back("specular");
+    if (m.conductor) lobes.emplace_back("conductor");
+    if (!m.fluorescence.empty()) lobes.emplace_back("fluorescence");
+    if (m.emission) lobes.emplace_back("emission");
+    return lobes;
+}
+
+struct NamedLight {
+    std::string text;
+    Curve curve;
+};
+
+/// The scene's lamps, one a spectrum; D65 for a scene without any.
+std::vector<NamedLight> lightsOf(const Scene& scene, const Library& library) {
+    std::vector<NamedLight> lights;
+    std::set<std::string> seen;
+    for (const Light& light : scene.lights)
+        if (seen.insert(light.emitter.spectrum.text).second)
+            lights.push_back({light.emitter.spectrum.text, light.emitter.spectrum.curve()});
+    if (lights.empty())
+        if (const auto d65 = library.find("illuminants/D65"))
+            lights.push_back({"illuminants/D65", d65->curve()});
+    return lights;
+}
+
+PeakRadianceFactor peakUnder(const NamedLight& light, const FluorescentBase& base, const Wavelengths& grid) {
+    const Curve reflectance = base.reflectance();
+    const std::array<const Curve*, 1> alone{&light.curve};
+    const std::array<const Curve*, 2> reflected{&light.curve, &reflectance};
+    const std::vector<double> white = project(grid, alone);
+    std::vector<double> sum = project(grid, reflected);
+    for (const Curve& curve : base.reradiation(light.curve)) {
+        const std::array<const Curve*, 1> glow{&curve};
+        const std::vector<double> bands = project(grid, glow);
+        for (size_t j = 0; j < sum.size(); ++j)
+            sum[j] += bands[j];
+    }
+    const double floor = 0.01 * *std::max_element(white.begin(), white.end());
+    PeakRadianceFactor peak{light.text, grid.nm.front(), 0};
+    for (size_t j = 0; j < sum.size(); ++j)
+        if (white[j] > 0 && white[j] >= floor && sum[j] / white[j] > peak.value)
+            peak.nm = grid.nm[j], peak.value = sum[j] / white[j];
+    return peak;
+}
+
+std::optional<FresnelFigures> fresnelOf(const Material& m, const Wavelengths& grid) {
+    using Model = FresnelFigures::Model;
+    const double from = band(grid, 0).from, to = std::max(band(grid, grid.size() - 1).to, from + 1);
+    if (m.conductor) {
+        const Curve &n = m.conductor->ior.curves.at(0), &k = m.conductor->ior.curves.at(1);
+        if (m.conductor->schlick) return FresnelFigures{Model::schlick, 2, schlickError(n, k, from, to)};
+        const FresnelBasis basis = conductorBasis(n, k, from, to);
+        return FresnelFigures{Model::exact, basis.angle.size(), basis.relativeError};
+    }
+    if (m.gloss) {
+        const Nodes nodes = nodesFor(m.gloss->ior.curve(), grid.nm.front(), grid.nm.back());
+        return FresnelFigures{
+            Model::exact, nodes.at.size(),
+            interpolationError(nodes, m.gloss->ior.curve(), grid.nm.front(), grid.nm.back())};
+    }
+    return std::nullopt;
+}
+
+/// The material alone under equal-energy light, as it is rendered: its tables and terms.
+class Furnace {
+  public:
+    Furnace(const Scene& scene, const Material& material, const Wavelengths& grid, const Library& library) {
+        Notes notes;
+        TextureLoader textures(scene, library, notes);
+        LightGroup equalEnergy;
+        equalEnergy.spectrum = Curve::constant(1);
+        const Detector observer = standardObserver(library);
+        TermBuilder builder(grid, observer, {equalEnergy}, Only::reflection, textures, world_, terms_, notes);
+        builder.add(material, 0);
+    }
+    [[nodiscard]] size_t terms() const { return terms_.count(); }
+    [[nodiscard]] FurnaceFigures figures() const {
+        FurnaceFigures f{1e300, 0, 0};
+        for (int i = 0; i <= 64; ++i) {
+            const double cosine = (i / 64.0) * (i / 64.0);
+            for (size_t band = 0; band < terms_.bands; ++band) {
+                const double albedo = sentBack(cosine, band);
+                f.least = std::min(f.least, albedo);
+                f.most = std::max(f.most, albedo);
+            }
+        }
+        for (const sd_lobe& lobe : world_.lobes) {
+            if (lobe.type != SD_LOBE_FACETS) continue;
+            const sd_piece* missing = world_.tables.data() + lobe.table;
+            f.bouncing = cosineMean([missing](double c) { return evaluate(missing, c); });
+        }
+        return f;
+    }
+
+  private:
+    /// As kernels/lobes.h, uniform_light().
+    [[nodiscard]] double sentBack(double cosine, size_t band) const {
+        constexpr double pi = std::numbers::pi;
+        double sum = 0;
+        for (const sd_lobe& lobe : world_.lobes) {
+            const auto term = [&](size_t function) {
+                return double{terms_.spectra[(lobe.term + function) * terms_.bands + band]};
+            };
+            const sd_piece* table = world_.tables.data() + lobe.table;
+            const double first = lobe.type == SD_LOBE_DIFFUSE ? 0 : evaluate(table, cosine);
+            if (lobe.type == SD_LOBE_DIFFUSE) sum += pi * term(0);
+            if (lobe.type == SD_LOBE_COATED) sum += pi * term(0) * first * double{lobe.mean_through};
+            if (lobe.type == SD_LOBE_ROUGH) sum += pi * (term(0) * (1 - first) + term(1) * first);
+            if (lobe.type == SD_LOBE_FACETS) {
+                for (size_t f = 0; f < lobe.functions; ++f)
+                    sum += term(f) * evaluate(table + (1 + f) * SD_CELLS, cosine);
+                if (lobe.multiple_to == lobe.functions) sum += term(lobe.functions) * first;
+            }
+        }
+        return sum;
+    }
+
+    World world_;
+    TermTable terms_;
+};
+
+MaterialReport report(const Scene& scene, const Material& material, const Wavelengths& grid,
+                      const std::vector<NamedLight>& lights, const Library& library) {
+    MaterialReport result;
+    result.name = material.name;
+    result.lobes = lobesOf(material);
+    if (!material.fluorescence.empty()) {
+        Notes notes;
+        const FluorescentBase base(material, 0, notes);
+        result.fluorescence = base.figures();
+        for (const NamedLight& light : lights)
+            result.peaks.push_back(peakUnder(light, base, grid));
+    }
+    result.fresnel = fresnelOf(material, grid);
+    const bool textured = material.diffuse && material.diffuse->texture;
+    const bool reflects = material.diffuse || material.gloss || material.specular || material.conductor ||
+                          !material.fluorescence.empty();
+    if (reflects && !textured) {
+        Material bare = material;
+        bare.emission.reset();
+        const Furnace furnace(scene, bare, grid, library);
+        result.terms = furnace.terms();
+        if (result.terms > 0) result.furnace = furnace.figures();
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<MaterialReport> reportMaterials(const Scene& scene, const Wavelengths& grid,
+                                            const Library& library) {
+    const std::vector<NamedLight> lights = lightsOf(scene, library);
+    std::vector<MaterialReport> reports;
+    for (const Material& material : scene.materials)
+        if (!lobesOf(material).empty()) reports.push_back(report(scene, material, grid, lights, library));
+    return reports;
+}
+
+}  // namespace spectrad
