@@ -73,7 +73,8 @@ static void shade(sd_material material, global const sd_lobe* lobes, global cons
     for (uint l = 0; l < material.lobes; ++l) {
         const sd_lobe lobe = lobes[material.first_lobe + l];
         if (lobe.type == SD_LOBE_EMISSION) {
-            add_to(sums + lobe.term * SD_BLOCK, select((vfloat)0.0f, (vfloat)1.0f, mask));
+            /* A texture's radiances come one a band, as if of one group. */
+            add_painted(lobe, p, s, 1.0f, mask, 1, sums + lobe.term * SD_BLOCK);
             continue;
         }
         const lobe_view at_view = view_of(lobe, tables, s);

@@ -238,10 +238,24 @@ void printSummary(const Output& output, const Plan& plan, const Seconds& seconds
         seconds.render, seconds.write));
 }
 
-const Pass* passNamed(const Scene& scene, const std::string& name) {
-    for (const Pass& pass : scene.passes)
-        if (pass.name == name) return &pass;
-    return nullptr;  // a plan names only passes of its scene
+/// Where a pass asks to be written to as well (save=): as -o would write it.
+Output savedAs(const Output& output, const Pass& pass) {
+    Output saved = output;
+    saved.cube = pass.save;
+    saved.envi = extensionOf(saved.cube) == ".img";
+    requireWritable(saved.cube);
+    return saved;
+}
+
+/// All passes' files can be written: found out before anything renders.
+void checkSaves(const std::vector<GraphNode>& graph, const Output& output) {
+    for (const GraphNode& node : graph)
+        if (node.shot.pass && !node.shot.pass->save.empty()) {
+            const Output saved = savedAs(output, *node.shot.pass);
+            if (fs::absolute(saved.cube).lexically_normal() == fs::absolute(output.cube).lexically_normal())
+                throw UsageError("-o: '" + output.cube.string() + "' is where pass '" + node.shot.pass->name +
+                                 "' is saved");
+        }
 }
 
 ExitCode render(const RenderArguments& arguments) {
@@ -261,16 +275,29 @@ ExitCode render(const RenderArguments& arguments) {
         loadScene(arguments.scene.file, library, loadOptions(arguments.scene), console.notes());
     seconds.load = clock.lap();
     if (!device) device = Device::open(std::nullopt);
-    PassTextures passes(scene, library, *device, settings, console.notes());
+    PassTextures passes(scene, library, *device, settings, console.notes(),
+                        [&](const Pass& pass, const Plan& made, const Cube& cube) {
+                            CubeInfo about = cubeInfo(arguments, scene, made, *device);
+                            const std::unique_ptr<CubeWriter> saving =
+                                openWriter(savedAs(output, pass), about, console.notes());
+                            saving->write(about.height, cube.values.data(), previewOf(cube, library).data());
+                            sayLosses(saving->finish(), console.notes());
+                        });
+    checkSaves(passes.graph(), output);
     const Plan plan = makePlan(scene, settings, library, passes, console.notes());
     seconds.plan = clock.lap();
     const CubeInfo info = cubeInfo(arguments, scene, plan, *device);
-    const std::unique_ptr<CubeWriter> writer = openWriter(output, info, console.notes());
+    std::vector<std::unique_ptr<CubeWriter>> writers;
+    writers.push_back(openWriter(output, info, console.notes()));
+    const Pass* target = passes.graph().back().shot.pass;
+    if (target && !target->save.empty())
+        writers.push_back(openWriter(savedAs(output, *target), info, console.notes()));
     console.printNotes();
     Preview preview(!output.preview.empty(), info.width, info.height);
     const auto deliver = [&](int firstRow, int rows, const float* bands, const float* linear) {
         const Stopwatch waiting;
-        writer->write(rows, bands, linear);
+        for (const auto& writer : writers)
+            writer->write(rows, bands, linear);
         preview.add(firstRow, rows, linear);
         seconds.write += waiting.seconds();
     };
@@ -281,12 +308,13 @@ ExitCode render(const RenderArguments& arguments) {
         seconds.build = renderer.times().build;
         seconds.render = renderer.times().render;
     } else {
-        const Cube cube = passes.render(*passNamed(scene, plan.passName));
+        const Cube cube = passes.render();
         seconds.render = clock.lap();
         deliver(0, info.height, cube.values.data(), previewOf(cube, library).data());
     }
     const Stopwatch finishing;
-    sayLosses(writer->finish(), console.notes());
+    for (const auto& writer : writers)
+        sayLosses(writer->finish(), console.notes());
     preview.write(output.preview, {plan.whiteName, plan.white, false});
     seconds.write += finishing.seconds();
     seconds.total = clock.total();

@@ -19,6 +19,28 @@ namespace {
 
 constexpr double inversePi = 1 / std::numbers::pi;
 
+/// Where radiances come from other bands than they go to, the signed values between sharp lines would leave
+/// bands below zero.
+void holdAboveZero(SpectralTexture& texture, const TextureUse& use, Notes& notes) {
+    size_t clipped = 0;
+    for (float& value : texture.texels)
+        if (value < 0) ++clipped, value = 0;
+    if (clipped > 0)
+        notes.say(
+            fmt::format("{}: {} of {} radiances came out below zero between the bands: set to zero "
+                        "(none would on the same wavelengths)",
+                        use.source, clipped, texture.texels.size()));
+}
+
+/// One at nm[t], linear to zero at its neighbours.
+Curve hatAt(const std::vector<double>& nm, size_t t, Outside outside) {
+    std::vector<double> at, value;
+    if (t > 0) at.push_back(nm[t - 1]), value.push_back(0);
+    at.push_back(nm[t]), value.push_back(1);
+    if (t + 1 < nm.size()) at.push_back(nm[t + 1]), value.push_back(0);
+    return Curve::table(at, value, outside);
+}
+
 const Curve& one() {
     static const Curve curve = Curve::constant(1);
     return curve;
@@ -61,8 +83,9 @@ void TermBuilder::addCoatedBase(const Material& material, const Curve& weight, c
     endLobe(lobe);
 }
 
-std::uint32_t TermBuilder::addTexture(const Material& material, std::vector<double>& nm) {
-    SpectralTexture texture = textures_.load(*material.diffuse->texture);
+std::uint32_t TermBuilder::addTexture(const TextureUse& use, std::vector<double>& nm) {
+    SpectralTexture texture = textures_.load(use);
+    if (use.role == TextureRole::radiance && texture.nm != grid_.nm) holdAboveZero(texture, use, notes_);
     sd_texture t{};
     t.first = world_.texels.size();
     t.width = texture.width;
@@ -81,13 +104,21 @@ void TermBuilder::addTextured(const Material& material) {
     if (only_ == Only::fluorescence) return;
     std::vector<double> nm;
     sd_lobe lobe = beginLobe(SD_LOBE_DIFFUSE);
-    lobe.texture = addTexture(material, nm);
+    lobe.texture = addTexture(*material.diffuse->texture, nm);
+    for (size_t t = 0; t < nm.size(); ++t)
+        addGroupTerms(hatAt(nm, t, Outside::hold), inversePi);
+    endLobe(lobe);
+}
+
+// The same without a lamp: a radiance's own hats.
+void TermBuilder::addGlowing(const TextureUse& use, double factor) {
+    std::vector<double> nm;
+    sd_lobe lobe = beginLobe(SD_LOBE_EMISSION);
+    lobe.texture = addTexture(use, nm);
     for (size_t t = 0; t < nm.size(); ++t) {
-        std::vector<double> at, value;
-        if (t > 0) at.push_back(nm[t - 1]), value.push_back(0);
-        at.push_back(nm[t]), value.push_back(1);
-        if (t + 1 < nm.size()) at.push_back(nm[t + 1]), value.push_back(0);
-        addGroupTerms(Curve::table(at, value, Outside::hold), inversePi);
+        // A single band says nothing of how wide it is: it counts everywhere.
+        const Curve hat = hatAt(nm, t, nm.size() == 1 ? Outside::hold : Outside::zero);
+        addTerm({{{&hat}, factor}});
     }
     endLobe(lobe);
 }
@@ -225,9 +256,13 @@ std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) 
 
     const std::uint32_t number = beginMaterial();
     if (material.emission && only_ == Only::everything) {
-        const sd_lobe lobe = beginLobe(SD_LOBE_EMISSION);
-        addTerm({{{&material.emission->spectrum.curve()}, emissionFactor}});
-        endLobe(lobe);
+        if (material.emission->texture)
+            addGlowing(*material.emission->texture, emissionFactor);
+        else {
+            const sd_lobe lobe = beginLobe(SD_LOBE_EMISSION);
+            addTerm({{{&material.emission->spectrum.curve()}, emissionFactor}});
+            endLobe(lobe);
+        }
     }
     if (groups_.empty()) return number;
     if (textured)

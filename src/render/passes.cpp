@@ -3,7 +3,6 @@
 #include "render/renderer.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,57 +10,175 @@
 
 namespace spectrad {
 
-PassTextures::PassTextures(const Scene& scene, const Library& library, const Device& device,
-                           RenderSettings settings, Notes& notes)
-    : TextureLoader(scene, library, notes), device_(device), settings_(std::move(settings)) {}
+struct PassTextures::Body {
+    Device device;
+    const Library& library;
+    Notes& notes;
+    Save save;
+    std::vector<GraphNode> graph;
+    std::vector<std::optional<Cube>> cubes;  ///< of the graph's nodes
+    std::vector<size_t> waiting;             ///< users that a node still has
+    bool rendered = false;
 
-Cube PassTextures::renderPlain(const Pass& pass, Substitute substitute, bool oneBand) {
-    RenderSettings settings;
-    settings.pass = pass.name;
-    // Wavelengths and samples of the command line are for the whole render; a pass that states its own keeps
-    // them.
-    if (!pass.wavelengths) settings.wavelengths = settings_.wavelengths;
-    settings.projection = settings_.projection;
-    if (!pass.samples) settings.samples = settings_.samples;
+    /// Renders everything but the target.
+    void renderNeeded();
+    [[nodiscard]] Cube render(size_t node);
+    [[nodiscard]] Cube renderPlain(size_t node, Substitute substitute, bool oneBand, Plan* used = nullptr);
+    [[nodiscard]] Cube divided(size_t node, Cube cube);
+    [[nodiscard]] SpectralTexture texture(size_t user, const Pass& pass, const TextureUse& use);
+};
+
+namespace {
+
+/// What a node of the graph sees: the cubes of those rendered before it.
+class NodeTextures : public TextureLoader {
+  public:
+    using Find = std::function<SpectralTexture(const Pass&, const TextureUse&)>;
+    NodeTextures(const Scene& scene, const Library& library, Notes& notes, Find find)
+        : TextureLoader(scene, library, notes), find_(std::move(find)) {}
+
+  private:
+    SpectralTexture loadPass(const Pass& pass, const TextureUse& use) override { return find_(pass, use); }
+    Find find_;
+};
+
+CubeKind kindOf(PassKind kind) {
+    switch (kind) {
+        case PassKind::reflectance:
+            return CubeKind::reflectance;
+        case PassKind::transmittance:
+            return CubeKind::transmittance;
+        case PassKind::irradiance:
+            return CubeKind::irradiance;
+        case PassKind::radiance:
+            break;
+    }
+    return CubeKind::radiance;
+}
+
+}  // namespace
+
+PassTextures::PassTextures(const Scene& scene, const Library& library, const Device& device,
+                           const RenderSettings& settings, Notes& notes, Save save)
+    : TextureLoader(*chooseShot(scene, settings).scene, library, notes),
+      body_(new Body{device, library, notes, std::move(save), renderGraph(scene, settings, notes), {}, {}}) {
+    for (const GraphNode& node : body_->graph) {
+        if (node.shot.pass && node.shot.pass->as == PassKind::transmittance)
+            throw InputError(node.shot.pass->where,
+                             "pass '" + node.shot.pass->name + "': as=\"transmittance\" is not there yet");
+        body_->waiting.push_back(node.users);
+    }
+    body_->cubes.resize(body_->graph.size());
+}
+
+PassTextures::~PassTextures() = default;
+
+const std::vector<GraphNode>& PassTextures::graph() const {
+    return body_->graph;
+}
+
+Cube PassTextures::render() {
+    body_->renderNeeded();
+    return body_->render(body_->graph.size() - 1);
+}
+
+SpectralTexture PassTextures::loadPass(const Pass& pass, const TextureUse& use) {
+    body_->renderNeeded();
+    return body_->texture(body_->graph.size() - 1, pass, use);
+}
+
+void PassTextures::Body::renderNeeded() {
+    if (rendered) return;
+    rendered = true;
+    for (size_t node = 0; node + 1 < graph.size(); ++node) {
+        cubes[node] = render(node);
+        // What no later pass needs any more makes room.
+        for (const GraphNode::Need& need : graph[node].needs)
+            if (need.node && --waiting[*need.node] == 0) cubes[*need.node].reset();
+    }
+}
+
+SpectralTexture PassTextures::Body::texture(size_t user, const Pass& pass, const TextureUse& use) {
+    const GraphNode& node = graph[user];
+    for (const GraphNode::Need& need : node.needs) {
+        if (&node.shot.scene->passes[need.pass] != &pass) continue;
+        SpectralTexture texture;
+        if (need.node) {
+            texture = textureFrom(*cubes[*need.node], use, notes);
+        } else {
+            texture.width = texture.height = 1;
+            texture.nm = node.grid.nm;
+            texture.texels.assign(texture.nm.size(), 0.0f);
+        }
+        texture.nearest = use.nearest;
+        return texture;
+    }
+    throw InputError(use.where, "pass '" + pass.name + "' is not part of the render graph");
+}
+
+Cube PassTextures::Body::renderPlain(size_t number, Substitute substitute, bool oneBand, Plan* used) {
+    const GraphNode& node = graph[number];
+    RenderSettings settings = node.settings;
     settings.substitute = substitute;
-    if (oneBand) settings.wavelengths = Wavelengths{{550}, Projection::point, 5};
-    const Plan plan = makePlan(scene(), settings, library(), *this, notes());
+    if (oneBand) {
+        settings.wavelengths = Wavelengths{{550}, Projection::point, 5};
+        settings.projection.reset();
+    }
+    NodeTextures textures(*node.shot.scene, library, notes, [&](const Pass& pass, const TextureUse& use) {
+        return texture(number, pass, use);
+    });
+    Plan plan = makePlan(node.shot, settings, library, textures, notes);
     Cube cube;
     cube.info.width = plan.view.width;
     cube.info.height = plan.view.height;
     cube.info.wavelengths = plan.wavelengths;
     cube.info.projectionStated = true;
-    Renderer renderer(device_, plan);
-    renderer.render([&](int, int rows, const float* bands, const float*) {
-        cube.values.insert(
-            cube.values.end(), bands,
-            bands + static_cast<size_t>(rows) * plan.terms.bands * static_cast<size_t>(plan.view.width));
-    });
+    const size_t rowValues = plan.terms.bands * static_cast<size_t>(plan.view.width);
+    cube.values.resize(rowValues * static_cast<size_t>(plan.view.height));
+    {
+        Renderer renderer(device, plan);
+        renderer.render([&](int first, int rows, const float* bands, const float*) {
+            std::copy_n(bands, static_cast<size_t>(rows) * rowValues,
+                        cube.values.data() + static_cast<size_t>(first) * rowValues);
+        });
+    }
+    if (used) {
+        // What the image is called after; its geometry and textures are not needed any more.
+        plan.world = {};
+        plan.terms = {};
+        *used = std::move(plan);
+    }
     return cube;
 }
 
-Cube PassTextures::render(const Pass& pass) {
-    switch (pass.as) {
-        case PassKind::radiance:
-            return renderPlain(pass, Substitute::none, false);
-        case PassKind::irradiance: {
-            // What a white Lambertian surface sends back is the irradiance over π, lamp by lamp.
-            Cube cube = renderPlain(pass, Substitute::whiteDiffuser, false);
-            for (float& value : cube.values)
-                value *= std::numbers::pi_v<float>;
-            cube.info.kind = CubeKind::irradiance;
-            return cube;
-        }
-        case PassKind::transmittance:
-            throw InputError(pass.where, "pass '" + pass.name + "': as=\"transmittance\" is not there yet");
-        case PassKind::reflectance:
-            break;
-    }
-    Cube cube = renderPlain(pass, Substitute::equalEnergy, false);
-    const Cube white = renderPlain(pass, Substitute::whiteDiffuser, true);
+Cube PassTextures::Body::render(size_t number) {
+    const GraphNode& node = graph[number];
+    const PassKind as = node.shot.pass ? node.shot.pass->as : PassKind::radiance;
+    Plan plan;
+    Cube cube = renderPlain(number,
+                            as == PassKind::reflectance  ? Substitute::equalEnergy
+                            : as == PassKind::irradiance ? Substitute::irradiance
+                                                         : Substitute::none,
+                            false, &plan);
+    // What a white Lambertian surface sends back is the irradiance over π, lamp by lamp.
+    if (as == PassKind::irradiance)
+        for (float& value : cube.values)
+            value *= std::numbers::pi_v<float>;
+    if (as == PassKind::reflectance) cube = divided(number, std::move(cube));
+    cube.info.kind = kindOf(as);
+    const bool last = number + 1 == graph.size();
+    const Pass* pass = node.shot.pass;
+    if (save && pass && !last && !pass->save.empty() && node.generation + 1 == std::max(pass->repeat, 1))
+        save(*pass, plan, cube);
+    return cube;
+}
+
+/// Equal-energy light divided by what a perfect white diffuser sends back.
+Cube PassTextures::Body::divided(size_t number, Cube cube) {
+    const Pass& pass = *graph[number].shot.pass;
+    const Cube white = renderPlain(number, Substitute::whiteDiffuser, true);
     // Only where nothing is seen may there be nothing to divide by.
-    const Cube seen = renderPlain(pass, Substitute::coverage, true);
-    cube.info.kind = CubeKind::reflectance;
+    const Cube seen = renderPlain(number, Substitute::coverage, true);
     const auto width = static_cast<size_t>(cube.info.width);
     const size_t bands = cube.info.wavelengths.size();
     for (int row = 0; row < cube.info.height; ++row) {
@@ -80,24 +197,6 @@ Cube PassTextures::render(const Pass& pass) {
         }
     }
     return cube;
-}
-
-SpectralTexture PassTextures::loadPass(const Pass& pass, const TextureUse& use) {
-    if (pass.as != PassKind::reflectance)
-        throw InputError(use.where, "pass '" + pass.name +
-                                        "' is not as=\"reflectance\", so it cannot be a <diffuse> texture");
-    if (std::find(open_.begin(), open_.end(), pass.name) != open_.end())
-        throw InputError(
-            use.where, fmt::format("passes need each other: {} -> {}", fmt::join(open_, " -> "), pass.name));
-    auto found = done_.find(pass.name);
-    if (found == done_.end()) {
-        open_.push_back(pass.name);
-        found = done_.emplace(pass.name, render(pass)).first;
-        open_.pop_back();
-    }
-    SpectralTexture texture = textureFrom(found->second, "pass:" + pass.name, notes());
-    texture.nearest = use.nearest;
-    return texture;
 }
 
 }  // namespace spectrad

@@ -4,35 +4,43 @@
 
 #include "opencl/device.h"
 #include "render/plan.h"
+#include "render/render_graph.h"
 #include "render/texture.h"
 
-#include <map>
-#include <string>
-#include <vector>
+#include <functional>
+#include <memory>
 
 namespace spectrad {
 
-/// Textures that passes make, rendered when first asked for. Passes that need each other are an InputError
-/// with the chain.
+/// Textures that passes make for one render of a scene.
+///
+///   PassTextures passes(scene, library, device, settings, notes);     // the render graph, checked
+///   Plan plan = makePlan(scene, settings, library, passes, notes);    // renders what is needed first
+///
+/// A pass is rendered once, and forgotten when the last that needs it has it.
 class PassTextures : public TextureLoader {
   public:
-    PassTextures(const Scene& scene, const Library& library, const Device& device, RenderSettings settings,
-                 Notes& notes);
+    /// Told of each finished pass that asks to be saved, with its plan (less geometry and terms); the target
+    /// is not among them.
+    using Save = std::function<void(const Pass&, const Plan&, const Cube&)>;
 
-    /// The pass as an image: radiance; reflectance (equal-energy light divided by what a perfect white
+    /// Throws InputError as renderGraph() does.
+    PassTextures(const Scene& scene, const Library& library, const Device& device,
+                 const RenderSettings& settings, Notes& notes, Save save = {});
+    ~PassTextures() override;
+
+    /// The target as an image: radiance; reflectance (equal-energy light divided by what a perfect white
     /// diffuser sends back there; 0 where nothing is seen); irradiance, W·m⁻²·nm⁻¹. Throws InputError where a
     /// reflectance would divide by no light, naming the pixel.
-    [[nodiscard]] Cube render(const Pass& pass);
+    [[nodiscard]] Cube render();
+    /// All that is rendered, in order; the last is the target.
+    [[nodiscard]] const std::vector<GraphNode>& graph() const;
 
   private:
     SpectralTexture loadPass(const Pass& pass, const TextureUse& use) override;
-    [[nodiscard]] Cube renderPlain(const Pass& pass, Substitute substitute, bool oneBand);
 
-    Device device_;
-    RenderSettings settings_;  ///< of the whole render: wavelengths and samples that every pass follows
-                               ///< unless it says its own
-    std::vector<std::string> open_;
-    std::map<std::string, Cube> done_;
+    struct Body;
+    std::unique_ptr<Body> body_;
 };
 
 }  // namespace spectrad

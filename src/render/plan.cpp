@@ -4,6 +4,7 @@
 #include "colour/detector.h"
 #include "render/range_check.h"
 #include "render/samples.h"
+#include "scene/pass_needs.h"
 #include "spectrum/library.h"
 
 #include <fmt/format.h>
@@ -16,13 +17,6 @@ namespace spectrad {
 namespace {
 
 constexpr int maxSide = 65536;  ///< pixels
-
-/// What is rendered: a camera, and a pass if one was asked for or stands in the scene.
-struct Choice {
-    const Camera* camera = nullptr;
-    Index cameraIndex = 0;
-    const Pass* pass = nullptr;
-};
 
 template <typename Named>
 std::vector<std::string> namesOf(const std::vector<Named>& items) {
@@ -42,28 +36,6 @@ const Named& byName(const std::vector<Named>& items, const std::string& name, co
         known += (known.empty() ? "" : ", ") + n;
     throw InputError(fmt::format("the scene has no {} '{}'{}{}", kind, name, didYouMean(name, names),
                                  known.empty() ? "" : " (there is: " + known + ")"));
-}
-
-Choice choose(const Scene& scene, const RenderSettings& settings) {
-    Choice choice;
-    if (!settings.pass.empty()) {
-        choice.pass = &byName(scene.passes, settings.pass, "pass");
-    } else if (settings.camera.empty() && !scene.passes.empty()) {
-        choice.pass = &scene.passes.back();
-        for (const Pass& pass : scene.passes)
-            if (pass.name == "main") choice.pass = &pass;
-    }
-    if (!settings.camera.empty()) {
-        choice.camera = &byName(scene.cameras, settings.camera, "camera");
-    } else if (choice.pass) {
-        choice.camera = &scene.cameras.at(choice.pass->camera);
-    } else if (!scene.cameras.empty()) {
-        choice.camera = &scene.cameras.front();
-    } else {
-        throw InputError(scene.file + ": the scene has no camera");
-    }
-    choice.cameraIndex = static_cast<Index>(choice.camera - scene.cameras.data());
-    return choice;
 }
 
 Affine placeOf(const Scene& scene, const FlatScene& flat, Index camera) {
@@ -101,11 +73,15 @@ std::vector<const Material*> materialsWorn(const Scene& scene, const FlatScene& 
     return materials;
 }
 
+bool isEqualEnergy(Substitute substitute) {
+    return substitute != Substitute::none && substitute != Substitute::irradiance;
+}
+
 Material substituted(const Material& material, Substitute substitute) {
     Material worn = material;
     if (substitute == Substitute::none) return worn;
     worn.emission.reset();
-    if (substitute == Substitute::whiteDiffuser) {
+    if (substitute == Substitute::whiteDiffuser || substitute == Substitute::irradiance) {
         worn = {};
         worn.name = material.name;
         worn.where = material.where;
@@ -132,7 +108,7 @@ std::vector<std::string> featuresOf(const std::vector<const Material*>& material
         if (m->diffuse) features.insert("diffuse");
         if (m->gloss) features.insert("gloss");
         if (m->emission) features.insert("emission");
-        if (m->diffuse && m->diffuse->texture) features.insert("texture");
+        if (!texturesOf(*m).empty()) features.insert("texture");
         if (m->specular) features.insert("specular");
         if (m->conductor) features.insert("conductor");
         if (!m->fluorescence.empty()) features.insert("fluorescence");
@@ -166,42 +142,86 @@ std::vector<std::string> definesOf(const World& world, int samples) {
 
 }  // namespace
 
+Shot shotOf(const Scene& scene, const Pass& pass) {
+    Shot shot;
+    shot.pass = &pass;
+    shot.scene = pass.scene ? pass.scene.get() : &scene;
+    if (pass.scene)
+        shot.number = pass.base;
+    else
+        shot.number = static_cast<Index>(&pass - scene.passes.data());
+    shot.camera = pass.camera;
+    if (shot.camera >= shot.scene->cameras.size())
+        throw InputError(pass.where, shot.scene->file + ": the scene has no camera");
+    return shot;
+}
+
+Shot chooseShot(const Scene& scene, const RenderSettings& settings) {
+    const Pass* pass = nullptr;
+    if (!settings.pass.empty()) {
+        pass = &byName(scene.passes, settings.pass, "pass");
+    } else if (settings.camera.empty() && !scene.passes.empty()) {
+        pass = &scene.passes.back();
+        for (const Pass& each : scene.passes)
+            if (each.name == "main") pass = &each;
+    }
+    Shot shot{&scene, nullptr, std::nullopt, 0};
+    if (pass) shot = shotOf(scene, *pass);
+    if (!settings.camera.empty())
+        shot.camera = static_cast<Index>(&byName(shot.scene->cameras, settings.camera, "camera") -
+                                         shot.scene->cameras.data());
+    if (shot.scene->cameras.empty()) throw InputError(scene.file + ": the scene has no camera");
+    return shot;
+}
+
+Wavelengths gridOf(const Shot& shot, const RenderSettings& settings) {
+    Wavelengths grid = settings.wavelengths                  ? *settings.wavelengths
+                       : shot.pass && shot.pass->wavelengths ? *shot.pass->wavelengths
+                                                             : shot.scene->wavelengths;
+    if (settings.projection) grid.projection = *settings.projection;
+    return grid;
+}
+
 Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library, Notes& notes) {
-    TextureLoader textures(scene, library, notes);
-    return makePlan(scene, settings, library, textures, notes);
+    const Shot shot = chooseShot(scene, settings);
+    TextureLoader textures(*shot.scene, library, notes);
+    return makePlan(shot, settings, library, textures, notes);
 }
 
 Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library,
               TextureLoader& textures, Notes& notes) {
-    const Choice choice = choose(scene, settings);
+    return makePlan(chooseShot(scene, settings), settings, library, textures, notes);
+}
+
+Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& library,
+              TextureLoader& textures, Notes& notes) {
+    const Scene& scene = *shot.scene;
+    const Camera& camera = scene.cameras.at(shot.camera);
     Plan plan;
-    plan.as = choice.pass ? choice.pass->as : PassKind::radiance;
-    plan.cameraName = choice.camera->name;
-    plan.passName = choice.pass ? choice.pass->name : "";
+    plan.as = shot.pass ? shot.pass->as : PassKind::radiance;
+    plan.cameraName = camera.name;
+    plan.passName = shot.pass ? shot.pass->name : "";
     plan.stripBytes = settings.stripBytes;
 
-    plan.wavelengths = settings.wavelengths                      ? *settings.wavelengths
-                       : choice.pass && choice.pass->wavelengths ? *choice.pass->wavelengths
-                                                                 : scene.wavelengths;
-    if (settings.projection) plan.wavelengths.projection = *settings.projection;
-    plan.samples = settings.samples                      ? *settings.samples
-                   : choice.pass && choice.pass->samples ? *choice.pass->samples
-                                                         : 16;
+    plan.wavelengths = gridOf(shot, settings);
+    plan.samples = settings.samples                  ? *settings.samples
+                   : shot.pass && shot.pass->samples ? *shot.pass->samples
+                                                     : 16;
     if (plan.samples < 1 || plan.samples > maxSamples)
         throw InputError(
             fmt::format("{} samples per pixel are not possible (1…{})", plan.samples, maxSamples));
-    std::pair<int, int> size{choice.camera->width, choice.camera->height};
-    if (choice.pass && choice.pass->size) size = *choice.pass->size;
+    std::pair<int, int> size{camera.width, camera.height};
+    if (shot.pass && shot.pass->size) size = *shot.pass->size;
     if (settings.size) size = *settings.size;
     checkSize(size.first, size.second);
 
-    const FlatScene flat = flatten(scene, choice.pass ? choice.pass->of : std::nullopt);
-    plan.view = makeView(*choice.camera, placeOf(scene, flat, choice.cameraIndex), size.first, size.second);
+    const FlatScene flat = shot.pass ? flatten(scene, *shot.pass) : flatten(scene);
+    plan.view = makeView(camera, placeOf(scene, flat, shot.camera), size.first, size.second);
 
     const Detector observer = standardObserver(library);
-    std::vector<LightGroup> groups = groupLights(scene, flat, plan.view, observer, plan.world.lights,
-                                                 settings.substitute != Substitute::none);
-    if (settings.substitute == Substitute::none) checkRange(plan.wavelengths, groups, observer, notes);
+    std::vector<LightGroup> groups =
+        groupLights(scene, flat, plan.view, observer, plan.world.lights, isEqualEnergy(settings.substitute));
+    if (!isEqualEnergy(settings.substitute)) checkRange(plan.wavelengths, groups, observer, notes);
 
     std::vector<std::uint32_t> number;
     const std::vector<const Material*> materials = materialsWorn(scene, flat, number);

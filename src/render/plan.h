@@ -33,11 +33,26 @@ struct Plan {
     [[nodiscard]] size_t lights() const { return world.lights.size(); }
 };
 
+/// What is rendered: a pass, or a whole scene through a camera.
+struct Shot {
+    const Scene* scene = nullptr;  ///< that is shown: another file's where the pass says so
+    const Pass* pass = nullptr;
+    std::optional<Index> number;  ///< of the pass among the shown scene's, if it is one of them
+    Index camera = 0;
+};
+/// The pass or camera that the settings name, else the scene's choice. Throws InputError for unknown names.
+[[nodiscard]] Shot chooseShot(const Scene& scene, const RenderSettings& settings);
+[[nodiscard]] Shot shotOf(const Scene& scene, const Pass& pass);
+/// The bands that it is rendered on.
+[[nodiscard]] Wavelengths gridOf(const Shot& shot, const RenderSettings& settings);
+
 /// Throws InputError for what the scene asks and this version cannot do ("not yet"), and for limits exceeded.
 [[nodiscard]] Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library,
                             Notes& notes);
 /// The same with textures from `textures`, which can render passes.
 [[nodiscard]] Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library,
+                            TextureLoader& textures, Notes& notes);
+[[nodiscard]] Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& library,
                             TextureLoader& textures, Notes& notes);
 
 }  // namespace spectrad

@@ -20,6 +20,7 @@ enum class Substitute {
     none,
     equalEnergy,  ///< every light keeps place and amount but has a constant spectrum; nothing glows by itself
     whiteDiffuser,  ///< that, and every surface a perfect white diffuser
+    irradiance,     ///< every surface a perfect white diffuser, under the lights as they are
     coverage        ///< every surface glows with radiance 1, whatever the light
 };
 

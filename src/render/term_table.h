@@ -64,8 +64,9 @@ class TermBuilder {
     void addGloss(const Material& material);
     void addSpecular(const Material& material);
     void addConductor(const Material& material);
-    /// The material's texture in the world, or 0; its wavelengths in `nm`.
-    std::uint32_t addTexture(const Material& material, std::vector<double>& nm);
+    void addGlowing(const TextureUse& use, double factor);
+    /// A texture in the world, counted from 1; its wavelengths in `nm`.
+    std::uint32_t addTexture(const TextureUse& use, std::vector<double>& nm);
     /// Diffuse base under a coat, its terms weighted by `weight` (one factor of the spectrum).
     void addCoatedBase(const Material& material, const Curve& weight, const AngleFunction& through,
                        double meanThrough, double inside);

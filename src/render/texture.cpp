@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "image/picture.h"
+#include "render/plan.h"
 #include "spectrum/lift.h"
 #include "spectrum/mass_matrix.h"
 #include "spectrum/projection.h"
@@ -14,12 +15,16 @@
 
 namespace spectrad {
 
-SpectralTexture textureFrom(const Cube& cube, const std::string& name, Notes& notes) {
+SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& notes) {
     const CubeInfo& info = cube.info;
-    if (info.kind != CubeKind::reflectance)
-        throw InputError(
-            name +
-            ": a <diffuse> texture must hold reflectances (channels T.…, or a pass with as=\"reflectance\")");
+    const bool reflectance = use.role == TextureRole::reflectance;
+    if (info.kind != (reflectance ? CubeKind::reflectance : CubeKind::radiance))
+        throw InputError(use.where,
+                         fmt::format("{} holds {}, but {}", use.source, name(info.kind),
+                                     reflectance ? "a <diffuse> texture is a reflectance (channels T.…, or a "
+                                                   "pass with as=\"reflectance\")"
+                                                 : "what glows is a radiance (channels S0.…, or a pass with "
+                                                   "as=\"radiance\")"));
     const Wavelengths& grid = info.wavelengths;
     const size_t bands = grid.size(), width = static_cast<size_t>(info.width);
     SpectralTexture texture;
@@ -36,14 +41,14 @@ SpectralTexture textureFrom(const Cube& cube, const std::string& name, Notes& no
             const std::vector<double> nodes = nodalValues(grid, values);
             float* texel = texture.texels.data() + (static_cast<size_t>(row) * width + x) * bands;
             for (size_t band = 0; band < bands; ++band) {
-                if (nodes[band] < 0) ++clipped;
-                texel[band] = static_cast<float>(std::max(nodes[band], 0.0));
+                if (reflectance && nodes[band] < 0) ++clipped;
+                texel[band] = static_cast<float>(reflectance ? std::max(nodes[band], 0.0) : nodes[band]);
             }
         }
     }
     if (clipped > 0)
         notes.say(fmt::format("{}: {} of {} reflectances came out below zero between the bands: set to zero",
-                              name, clipped, cube.values.size()));
+                              use.source, clipped, cube.values.size()));
     return texture;
 }
 
@@ -78,17 +83,22 @@ SpectralTexture textureFromPicture(const std::string& file, const Library& libra
 }
 
 SpectralTexture TextureLoader::load(const TextureUse& use) {
-    constexpr std::string_view prefix = "pass:";
-    if (use.source.starts_with(prefix)) {
+    if (use.isPass()) {
         for (const Pass& pass : scene_.passes)
-            if (pass.name == use.source.substr(prefix.size())) return loadPass(pass, use);
-        throw InputError(use.where, "there is no pass '" + use.source.substr(prefix.size()) + "'");
+            if (pass.name == use.passName()) return loadPass(pass, use);
+        throw InputError(use.where, "there is no pass '" + use.passName() + "'");
     }
     SpectralTexture texture;
-    if (use.source.ends_with(".png"))
+    if (use.source.ends_with(".png")) {
+        if (use.role == TextureRole::radiance)
+            throw InputError(use.where,
+                             use.source +
+                                 ": a picture has no radiances, so it cannot glow (a spectral cube or "
+                                 "a pass can)");
         texture = textureFromPicture(use.source, library_);
-    else
-        texture = textureFrom(readCube(use.source, notes_), use.source, notes_);
+    } else {
+        texture = textureFrom(readCube(use.source, notes_), use, notes_);
+    }
     texture.nearest = use.nearest;
     return texture;
 }
@@ -96,7 +106,7 @@ SpectralTexture TextureLoader::load(const TextureUse& use) {
 SpectralTexture TextureLoader::loadPass(const Pass& pass, const TextureUse& use) {
     SpectralTexture texture;
     texture.width = texture.height = 1;
-    texture.nm = (pass.wavelengths ? *pass.wavelengths : scene_.wavelengths).nm;
+    texture.nm = gridOf(shotOf(scene_, pass), {}).nm;
     texture.texels.assign(texture.nm.size(), 0.0f);
     texture.nearest = use.nearest;
     return texture;

@@ -1,4 +1,4 @@
-// Spectral textures: reflectances, linear between the wavelengths that all texels share.
+// Spectral textures: reflectances or radiances, linear between the wavelengths that all texels share.
 #pragma once
 
 #include "image/cube.h"
@@ -18,10 +18,11 @@ struct SpectralTexture {
     std::vector<float> texels;  ///< [(row * width + column) * bands + band], row 0 on top
 };
 
-/// A cube of reflectances as a texture: slit averages become the nodal values of the curve that has them,
-/// held at or above zero. Throws InputError for a cube of another kind (only radiance carries fluorescence;
-/// only a reflectance takes a lamp).
-[[nodiscard]] SpectralTexture textureFrom(const Cube& cube, const std::string& name, Notes& notes);
+/// A cube as a texture: slit averages become the nodal values of the curve that has them; reflectances are
+/// held at or above zero, radiances keep their sign so that the same bands come back. Throws InputError for a
+/// cube of another kind than the use asks for (only radiance carries fluorescence; only a reflectance takes a
+/// lamp).
+[[nodiscard]] SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& notes);
 /// An RGB picture (PNG, sRGB), each colour lifted to a smooth reflectance (see lift.h), on wavelengths
 /// 380:780:10.
 [[nodiscard]] SpectralTexture textureFromPicture(const std::string& file, const Library& library);

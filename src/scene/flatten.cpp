@@ -61,4 +61,14 @@ FlatScene flatten(const Scene& scene, std::optional<Index> root) {
     return flat;
 }
 
+FlatScene flatten(const Scene& scene, const Pass& pass) {
+    FlatScene flat = flatten(scene, pass.of);
+    if (!pass.lights) return flat;
+    if (pass.of) flat.lights = flatten(scene).lights;
+    std::erase_if(flat.lights, [&](const Placed& light) {
+        return std::find(pass.lights->begin(), pass.lights->end(), light.index) == pass.lights->end();
+    });
+    return flat;
+}
+
 }  // namespace spectrad

@@ -53,7 +53,7 @@ std::vector<ElementRule> makeGrammar() {
         rule("specular", "reflectance! roughness"),
         rule("conductor", "ior! roughness fresnel"),
         rule("fluorescence", "excitation emission yield strength emission-unit anti-stokes matrix diagonal"),
-        rule("emission", "spectrum! luminance radiance scale"),
+        rule("emission", "spectrum luminance radiance scale texture filter"),
         rule("node", "name" + transform, graph),
         rule("instance", "of! name" + transform),
         rule("import", "file! name" + transform + " material normals geometry-only", "bind"),
@@ -71,7 +71,7 @@ std::vector<ElementRule> makeGrammar() {
         rule("background", "spectrum! luminance radiance scale"),
         rule("camera", "name type fov sensor focal height look-from look-at up size"),
         rule("detector", "name! observer!"),
-        rule("pass", "name! camera of size samples wavelengths projection as save"),
+        rule("pass", "name! scene camera of lights size samples wavelengths projection as repeat save"),
     };
 }
 

@@ -60,8 +60,35 @@ bool hasLight(const Reading& reading) {
     return false;
 }
 
-Scene readScene(const std::filesystem::path& path, const LoadOptions& options, SpectrumResolver& resolver,
-                Notes& notes) {
+/// Files that are being read: each a scene of which the one before has a pass.
+using OpenFiles = std::vector<std::filesystem::path>;
+
+std::filesystem::path canonicalOf(const std::filesystem::path& path) {
+    std::error_code failed;
+    const std::filesystem::path canonical = std::filesystem::weakly_canonical(path, failed);
+    return failed ? path : canonical;
+}
+
+Scene loadOpen(const std::filesystem::path& path, const Library& library, const LoadOptions& options,
+               Notes& notes, OpenFiles& open);
+
+std::shared_ptr<const Scene> loadOther(const std::filesystem::path& path, const SourceLocation& where,
+                                       const Library& library, const LoadOptions& options, Notes& notes,
+                                       OpenFiles& open) {
+    const std::filesystem::path file = canonicalOf(path);
+    if (std::find(open.begin(), open.end(), file) != open.end()) {
+        std::string chain;
+        for (const std::filesystem::path& each : open)
+            chain += each.filename().string() + " -> ";
+        throw InputError(where, "scenes have passes of each other: " + chain + file.filename().string());
+    }
+    LoadOptions others;
+    others.restricted = options.restricted;
+    return std::make_shared<const Scene>(loadOpen(path, library, others, notes, open));
+}
+
+Scene readScene(const std::filesystem::path& path, const Library& library, const LoadOptions& options,
+                SpectrumResolver& resolver, Notes& notes, OpenFiles& open) {
     XmlDocument document(readFile(path), path.string());
     applyOverrides(document, options.set);
     checkStructure(document);
@@ -69,6 +96,9 @@ Scene readScene(const std::filesystem::path& path, const LoadOptions& options, S
     Reading reading{document, resolver, notes};
     reading.restricted = options.restricted;
     reading.scene = emptyScene();
+    reading.otherScene = [&](const std::filesystem::path& other, const SourceLocation& where) {
+        return loadOther(other, where, library, options, notes, open);
+    };
     reading.files.add(path);
     readHeader(reading);
     readSpectra(reading);
@@ -88,22 +118,30 @@ Scene readScene(const std::filesystem::path& path, const LoadOptions& options, S
     return std::move(reading.scene);
 }
 
-}  // namespace
-
-Scene loadScene(const std::filesystem::path& path, const Library& library, const LoadOptions& options,
-                Notes& notes) {
+Scene loadOpen(const std::filesystem::path& path, const Library& library, const LoadOptions& options,
+               Notes& notes, OpenFiles& open) {
     const std::filesystem::path folder =
         path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
     SpectrumResolver resolver(library, folder, options.restricted, notes);
     const bool ours = isOurs(path);
     if (!ours && !options.set.empty())
         throw UsageError(fmt::format("--set changes scenes in XML; {} is a foreign model", path.string()));
-    Scene scene = ours ? readScene(path, options, resolver, notes)
+    open.push_back(canonicalOf(path));
+    Scene scene = ours ? readScene(path, library, options, resolver, notes, open)
                        : sceneFromModel(path, resolver, options.restricted, notes);
+    open.pop_back();
     scene.file = path.string();
     if (scene.filesRead.empty()) scene.filesRead = {path.string()};
     scene.sha256 = hashOf(scene.filesRead);
     return scene;
+}
+
+}  // namespace
+
+Scene loadScene(const std::filesystem::path& path, const Library& library, const LoadOptions& options,
+                Notes& notes) {
+    OpenFiles open;
+    return loadOpen(path, library, options, notes, open);
 }
 
 }  // namespace spectrad

@@ -98,4 +98,33 @@ Emitter readEmitter(Reading& reading, const Element& element, SourceKind kind, c
     return emitter;
 }
 
+TextureUse readTexture(Reading& reading, const Element& element, TextureRole role) {
+    TextureUse use;
+    use.role = role;
+    use.where = element.where("texture");
+    use.source = element.text("texture");
+    if (!use.isPass()) use.source = reading.file(element, "texture").string();
+    use.nearest = element.choice<bool>("filter", {{"bilinear", false}, {"nearest", true}}, false);
+    return use;
+}
+
+Emitter readGlow(Reading& reading, const Element& element, const std::string& what) {
+    if (element.has("spectrum") == element.has("texture"))
+        element.fail(element.has("texture") ? "has both 'spectrum' and 'texture' (one is allowed)"
+                                            : "needs the attribute 'spectrum' or 'texture'");
+    if (!element.has("texture")) {
+        element.refuse("filter", "stands only beside 'texture'");
+        return readEmitter(reading, element, SourceKind::radiance, what);
+    }
+    for (std::string_view amount : amountAttributes())
+        element.refuse(
+            std::string(amount).c_str(),
+            "cannot stand beside 'texture', whose radiances are absolute (scale= multiplies them)");
+    Emitter emitter;
+    emitter.where = element.where();
+    emitter.texture = readTexture(reading, element, TextureRole::radiance);
+    emitter.scale = element.number("scale", 1, notNegative);
+    return emitter;
+}
+
 }  // namespace spectrad

@@ -9,22 +9,13 @@ namespace spectrad {
 
 namespace {
 
-TextureUse readTexture(Reading& reading, const Element& element) {
-    TextureUse use;
-    use.where = element.where("texture");
-    use.source = element.text("texture");
-    if (!startsWith(use.source, "pass:")) use.source = reading.file(element, "texture").string();
-    use.nearest = element.choice<bool>("filter", {{"bilinear", false}, {"nearest", true}}, false);
-    return use;
-}
-
 Diffuse readDiffuse(Reading& reading, const Element& element) {
     if (element.has("reflectance") == element.has("texture"))
         element.fail(element.has("texture") ? "has both 'reflectance' and 'texture' (one is allowed)"
                                             : "needs the attribute 'reflectance' or 'texture'");
     Diffuse diffuse;
     if (element.has("texture")) {
-        diffuse.texture = readTexture(reading, element);
+        diffuse.texture = readTexture(reading, element, TextureRole::reflectance);
     } else {
         element.refuse("filter", "stands only beside 'texture'");
         diffuse.reflectance = reading.spectrum(element, "reflectance", Role::reflectance);
@@ -91,7 +82,7 @@ Material readMaterial(Reading& reading, const Element& element) {
         } else if (kind == "fluorescence") {
             material.fluorescence.push_back(readFluorescence(reading, lobe));
         } else {
-            material.emission = readEmitter(reading, lobe, SourceKind::radiance, "an emission");
+            material.emission = readGlow(reading, lobe, "an emission");
         }
     }
     if (element.node().first_child().empty())

@@ -9,6 +9,7 @@
 #include "spectrum/resolver.h"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -46,6 +47,10 @@ struct Reading {
         passes{"pass"};
     std::vector<bool> materialUsed{};  ///< one per material that the scene file defines
     ModelCache cache{};
+    /// Another scene's file, for a pass of it; throws InputError at the place for scenes that contain
+    /// themselves.
+    std::function<std::shared_ptr<const Scene>(const std::filesystem::path&, const SourceLocation&)>
+        otherScene{};
 
     /// A length attribute in metres; the fallback is in the scene's unit.
     [[nodiscard]] double length(const Element& element, const char* attribute, double fallback,
@@ -72,7 +77,7 @@ void readGraph(
     Reading& reading);  ///< nodes with shapes, meshes, lights, cameras, instances, imports; checks instances
 void readBackground(Reading& reading);
 void readDetectors(Reading& reading);
-void readPasses(Reading& reading);  ///< also checks that textures name passes that are there
+void readPasses(Reading& reading);  ///< also checks that textures name passes that are there, of their type
 
 /// Parts of the graph, called by readGraph.
 [[nodiscard]] Light readLight(Reading& reading, const Element& element);
@@ -86,6 +91,11 @@ void readImport(Reading& reading, const Element& element, Index node);
 enum class SourceKind { intensity, irradiance, radiance };
 [[nodiscard]] Emitter readEmitter(Reading& reading, const Element& element, SourceKind kind,
                                   const std::string& what);
+
+/// texture="file | pass:NAME" with its filter=.
+[[nodiscard]] TextureUse readTexture(Reading& reading, const Element& element, TextureRole role);
+/// What glows: an emitter of radiance, or texture= with scale=.
+[[nodiscard]] Emitter readGlow(Reading& reading, const Element& element, const std::string& what);
 
 /// Throws InputError for instances that contain themselves (printing the chain), and for more placements than
 /// maxPlacements once all are expanded.

@@ -42,6 +42,18 @@ struct Amount {
         over;  ///< nm: integrate the spectrum over this range (constant spectra need one)
 };
 
+/// What a texture's values must be where it is used.
+enum class TextureRole { reflectance, radiance };
+struct TextureUse {
+    std::string source;    ///< file name, or "pass:NAME"
+    bool nearest = false;  ///< filter="nearest": no interpolation between texels
+    TextureRole role = TextureRole::reflectance;
+    SourceLocation where;
+
+    [[nodiscard]] bool isPass() const { return source.starts_with("pass:"); }
+    [[nodiscard]] std::string passName() const { return source.substr(5); }
+};
+
 /// A source's spectrum: shape × amount, or absolute × scale (docs/format.md, "Amounts").
 struct Emitter {
     Spectrum spectrum;
@@ -49,16 +61,11 @@ struct Emitter {
         amount;  ///< nothing: the spectrum counts as it stands, in the light's own unit per nm
     double scale = 1;
     SourceLocation where;
+    std::optional<TextureUse> texture{};  ///< instead of the spectrum: radiances from place to place × scale
 };
 
 // ---- materials
 // -----------------------------------------------------------------------------------------------------
-
-struct TextureUse {
-    std::string source;    ///< file name, or "pass:NAME"
-    bool nearest = false;  ///< filter="nearest": no interpolation between texels
-    SourceLocation where;
-};
 
 struct Diffuse {
     std::optional<Spectrum> reflectance;  ///< exactly one of reflectance, texture
@@ -151,14 +158,19 @@ struct DetectorUse {
 };
 
 enum class PassKind { radiance, reflectance, transmittance, irradiance };
+struct Scene;
 struct Pass {
     std::string name;
+    std::shared_ptr<const Scene> scene;  ///< another file's; camera, of and lights are then its own
+    std::optional<Index> base;           ///< then: the pass of that scene from which this one was made
     Index camera = 0;
-    std::optional<Index> of;  ///< node
+    std::optional<Index> of;                   ///< node
+    std::optional<std::vector<Index>> lights;  ///< only these count, wherever they stand
     std::optional<std::pair<int, int>> size;
     std::optional<int> samples;
     std::optional<Wavelengths> wavelengths;
     PassKind as = PassKind::radiance;
+    int repeat = 0;    ///< generations, each of which sees the one before as its own texture; 0: not said
     std::string save;  ///< file to write as well; may be empty
     SourceLocation where;
 };
@@ -195,5 +207,7 @@ struct FlatScene {
     std::vector<Placed> cameras;
 };
 [[nodiscard]] FlatScene flatten(const Scene& scene, std::optional<Index> root = std::nullopt);
+/// What a pass shows: its subtree, with the lights inside it or those it names.
+[[nodiscard]] FlatScene flatten(const Scene& scene, const Pass& pass);
 
 }  // namespace spectrad

@@ -81,13 +81,18 @@ bool SpectrumResolver::isOfLibrary(const Spectrum& spectrum) const {
     return !spectrum.files.empty() && isBelow(spectrum.files.front(), library_.folder());
 }
 
-fs::path SpectrumResolver::findFile(const std::string& file, const SourceLocation& where) const {
+fs::path SpectrumResolver::outputFile(const std::string& file, const SourceLocation& where) const {
     if (file.empty()) throw InputError(where, "a file without a name");
     const fs::path path = folder_ / file;  // an absolute name stays as it is
     if (!isAllowed(path))
         throw InputError(
             where, fmt::format("'{}' lies outside the scene's folder, which is not allowed here (--restrict)",
                                file));
+    return path;
+}
+
+fs::path SpectrumResolver::findFile(const std::string& file, const SourceLocation& where) const {
+    const fs::path path = outputFile(file, where);
     if (isFile(path)) return path;
     std::error_code ignored;
     if (fs::exists(path, ignored))

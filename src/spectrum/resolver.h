@@ -55,6 +55,9 @@ class SpectrumResolver {
     /// Turns "pass:…" and other scene-relative file names into paths: `file` beside the scene, checked
     /// against `restricted`.
     [[nodiscard]] std::filesystem::path findFile(const std::string& file, const SourceLocation& where) const;
+    /// A file to write, beside the scene; checked against `restricted`.
+    [[nodiscard]] std::filesystem::path outputFile(const std::string& file,
+                                                   const SourceLocation& where) const;
 
   private:
     struct Definition {

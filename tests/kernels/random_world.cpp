@@ -75,7 +75,7 @@ void addMaterials(Plan& plan) {
     begin(), addLobe(plan, SD_LOBE_ROUGH, term, 0.4), end(term);
     term = 0;
     begin(), addLobe(plan, SD_LOBE_FACETS, term, 0.09, 3, true), end(term);
-    // Lambert and coat over textures, filtered and not.
+    // Lambert and coat over textures, filtered and not; the same textures glowing.
     for (const int filter : {SD_BILINEAR, SD_NEAREST}) {
         sd_texture t{};
         t.first = world.texels.size();
@@ -88,6 +88,9 @@ void addMaterials(Plan& plan) {
         begin(), addLobe(plan, filter == SD_NEAREST ? SD_LOBE_COATED : SD_LOBE_DIFFUSE, term, 0);
         world.lobes.back().texture = static_cast<sd_uint>(world.textures.size());
         term += 3 * plan.groups;
+        addLobe(plan, SD_LOBE_EMISSION, term, 0);
+        world.lobes.back().texture = static_cast<sd_uint>(world.textures.size());
+        term += 3;
         end(term);
     }
     plan.terms.bands = 7;

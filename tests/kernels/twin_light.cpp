@@ -171,24 +171,25 @@ void shade(const Plan& plan, const sd_material& material, const SurfaceOf<Real>&
     size_t call = 0;
     for (std::uint32_t l = 0; l < material.lobes; ++l) {
         const sd_lobe& lobe = world.lobes[material.first_lobe + l];
-        if (lobe.type == SD_LOBE_EMISSION) {
-            add(call++, lobe.term, Real(1.0));
-            continue;
-        }
-        const sd_piece* table = world.tables.data() + lobe.table;
-        const CellOf<Real> viewCell = cellOf(s.cosView);
-        const Real first = lobe.type == SD_LOBE_DIFFUSE ? Real(0.0) : lookUp(table, viewCell);
         constexpr size_t callsALight = 64;
-        const auto paint = [&](size_t base, std::uint32_t term, Real g) {
+        const auto paint = [&](size_t base, std::uint32_t term, Real g, std::uint32_t stride) {
             if (lobe.texture == 0) {
                 add(base, term, g);
                 return;
             }
             const sd_texture& t = world.textures[lobe.texture - 1];
             for (int band = 0; band < t.bands; ++band)
-                add(base + static_cast<size_t>(band), term + static_cast<std::uint32_t>(band) * groups,
+                add(base + static_cast<size_t>(band), term + static_cast<std::uint32_t>(band) * stride,
                     g * texel(world, t, s, band));
         };
+        if (lobe.type == SD_LOBE_EMISSION) {
+            paint(call, lobe.term, Real(1.0), 1);
+            call += callsALight;
+            continue;
+        }
+        const sd_piece* table = world.tables.data() + lobe.table;
+        const CellOf<Real> viewCell = cellOf(s.cosView);
+        const Real first = lobe.type == SD_LOBE_DIFFUSE ? Real(0.0) : lookUp(table, viewCell);
         for (const sd_light& light : world.lights) {
             const size_t base = call;
             call += callsALight;
@@ -196,12 +197,13 @@ void shade(const Plan& plan, const sd_material& material, const SurfaceOf<Real>&
             if (light.type == SD_LIGHT_AMBIENT || light.type == SD_LIGHT_SURROUNDINGS) {
                 if (light.type == SD_LIGHT_SURROUNDINGS && !(lobe.type == SD_LOBE_FACETS && lobe.alpha == 0))
                     continue;
-                if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, light.scale);
+                if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, light.scale, groups);
                 if (lobe.type == SD_LOBE_ROUGH) {
                     add(base, term, light.scale * (Real(1.0) - first));
                     add(base + 1, term + groups, light.scale * first);
                 }
-                if (lobe.type == SD_LOBE_COATED) paint(base, term, light.scale * first * lobe.mean_through);
+                if (lobe.type == SD_LOBE_COATED)
+                    paint(base, term, light.scale * first * lobe.mean_through, groups);
                 if (lobe.type == SD_LOBE_FACETS) {
                     for (std::uint32_t f = 0; f < lobe.functions; ++f)
                         add(base + f, term + f * groups,
@@ -217,9 +219,9 @@ void shade(const Plan& plan, const sd_material& material, const SurfaceOf<Real>&
             const Real cosLight = dot(s.normal, toLight);
             if (!(cosLight > 0)) continue;
             const Real irradiance = strength * cosLight;
-            if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, irradiance);
+            if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, irradiance, groups);
             if (lobe.type == SD_LOBE_COATED)
-                paint(base, term, irradiance * (first * lookUp(table, cellOf(cosLight))));
+                paint(base, term, irradiance * (first * lookUp(table, cellOf(cosLight))), groups);
             if (lobe.type == SD_LOBE_ROUGH) {
                 const Real beyond = std::fma(-cosLight, s.cosView, dot(toLight, s.view));
                 const Real divisor = beyond > 0 ? std::fmax(cosLight, s.cosView) : Real(1.0);

@@ -197,7 +197,7 @@ TEST_CASE("every lobe of the format is read") {
       <material name="d"><diffuse texture="wood.png"/></material>
       <material name="e"><fluorescence matrix="donaldson.csv" diagonal="none"/><diffuse texture="pass:p"/></material>
       <material name="f"><gloss ior="cauchy:1.5046,0.0042"/></material>
-      <pass name="p"/>)"))
+      <pass name="p" as="reflectance"/>)"))
                             .scene;
     const auto& m = scene.materials;
     REQUIRE(m.size() == 7);
@@ -282,7 +282,7 @@ TEST_CASE("passes name cameras and nodes, also those written later") {
     CHECK(pass.as == PassKind::reflectance);
     CHECK(pass.wavelengths->size() == 31);
     CHECK(pass.wavelengths->projection == Projection::box);
-    CHECK(pass.save == "inner.exr");
+    CHECK(pass.save.ends_with("/inner.exr"));
     CHECK_FALSE(scene.passes[1].wavelengths);
 }
 

@@ -1,0 +1,26 @@
+// Which passes a pass shows: the edges of the render graph.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace spectrad {
+
+/// All textures that a material looks up.
+[[nodiscard]] std::vector<const TextureUse*> texturesOf(const Material& material);
+
+/// A pass of the same scene that is seen, and the first place where.
+struct PassNeed {
+    Index pass;
+    const TextureUse* use;
+};
+/// What must be rendered before this pass of `scene` (null: the whole scene through a camera): each pass that
+/// what is shown wears, once.
+[[nodiscard]] std::vector<PassNeed> passesNeeded(const Scene& scene, const Pass* pass);
+
+/// Throws InputError for passes that need each other, with the chain; a pass may need itself if it repeats,
+/// and must if it does.
+void checkPasses(const Scene& scene);
+
+}  // namespace spectrad

@@ -1,0 +1,121 @@
+// Passes from the command line: chains against the same done by hand through files, --pass, save=.
+#include "cli/support.h"
+#include "image/cube.h"
+
+#include <algorithm>
+#include <cmath>
+
+using cli::Folder;
+using cli::requireError;
+using cli::run;
+
+namespace {
+
+/// A print (reflectance) of a chart in a room under another lamp, photographed (radiance) onto a screen in a
+/// hall. What the print and the screen show is left open.
+std::string scene(const std::string& print, const std::string& screen) {
+    return R"(<scene version="1">
+  <wavelengths from="400" to="700" step="10"/>
+  <material name="a"><diffuse reflectance="400:0.1 505:0.7 600:0.2 700:0.4"/></material>
+  <material name="b"><diffuse reflectance="400:0.6 500:0.2 603:0.1 700:0.8"/><gloss ior="1.5" roughness="0.4"/></material>
+  <material name="print"><diffuse texture=")" +
+           print + R"("/></material>
+  <material name="screen"><emission texture=")" +
+           screen + R"(" scale="1.5"/></material>
+  <node name="studio">
+    <sphere radius="0.4" material="b"/><node translate="0 0 -0.5"><plane size="3 3" material="a"/></node>
+    <light type="point" position="1 1 2" spectrum="illuminants/A" intensity="100 cd"/>
+    <light type="ambient" spectrum="illuminants/D65" luminance="5 cd/m2"/>
+    <camera name="studio" type="orthographic" height="1" look-from="0 0 5" look-at="0 0 0" size="33x20"/>
+  </node>
+  <node name="room" translate="9 0 0">
+    <node rotate="0 1 0 20"><plane size="1.6 1" material="print"/></node>
+    <light type="spot" position="0 1 2" target="0 0 0" angle="60" blend="0.5" spectrum="illuminants/FL11" intensity="300 cd"/>
+    <camera name="room" look-from="0 0 2" look-at="0 0 0" fov="30" size="40x30"/>
+  </node>
+  <node name="hall" translate="-9 0 0">
+    <node rotate="1 0 0 -15"><plane size="1.6 1.2" material="screen"/></node><node translate="0 0 -1"><plane size="4 4"/></node>
+    <light type="directional" direction="0 0 -1" spectrum="illuminants/D65" illuminance="20 lx"/>
+    <camera name="hall" look-from="0 0 2" look-at="0 0 0" fov="45" size="50x40"/>
+  </node>
+  <pass name="chart" camera="studio" of="studio" as="reflectance" size="24x16" save="kept/chart.exr"/>
+  <pass name="photograph" camera="room" of="room" samples="4"/>
+  <pass name="main" camera="hall" of="hall"/>
+  <pass name="unused" camera="hall" of="hall" save="unused.exr"/>
+</scene>
+)";
+}
+
+spectrad::Cube cubeIn(const Folder& folder, const std::string& name) {
+    spectrad::Notes notes;
+    return spectrad::readCube(folder / name, notes);
+}
+
+void requireSame(const Folder& folder, const std::string& a, const std::string& b) {
+    CAPTURE(a, b);
+    const spectrad::Cube first = cubeIn(folder, a), second = cubeIn(folder, b);
+    REQUIRE(first.info.kind == second.info.kind);
+    REQUIRE(first.info.wavelengths.nm == second.info.wavelengths.nm);
+    REQUIRE(first.values == second.values);
+    REQUIRE(std::any_of(first.values.begin(), first.values.end(), [](float v) { return v > 0; }));
+}
+
+}  // namespace
+
+TEST_CASE("a chain of passes is bit for bit the same done by hand through files") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    std::filesystem::create_directory(folder / "kept");
+    folder.write("chain.xml", scene("pass:chart", "pass:photograph"));
+    REQUIRE(run(folder, {"render", "chain.xml", "-q", "-o", "chain.exr"}).code == 0);
+    CHECK(std::filesystem::exists(folder / "kept/chart.exr"));
+    CHECK_FALSE(std::filesystem::exists(folder / "unused.exr"));
+
+    std::filesystem::remove(folder / "kept/chart.exr");
+    REQUIRE(run(folder, {"render", "chain.xml", "-q", "--pass", "chart", "-o", "chart.exr"}).code == 0);
+    requireSame(folder, "chart.exr", "kept/chart.exr");
+    folder.write("first.xml", scene("chart.exr", "pass:photograph"));
+    REQUIRE(run(folder, {"render", "first.xml", "-q", "--pass", "photograph", "-o", "photograph.exr"}).code ==
+            0);
+    folder.write("second.xml", scene("chart.exr", "photograph.exr"));
+    REQUIRE(run(folder, {"render", "second.xml", "-q", "-o", "hand.exr"}).code == 0);
+    requireSame(folder, "chain.exr", "hand.exr");
+}
+
+TEST_CASE("a pass of another file is what rendering that file makes") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    std::filesystem::create_directory(folder / "kept");
+    folder.write("studio.xml", scene("pass:chart", "pass:photograph"));
+    folder.write("wall.xml", R"(<scene version="1"><wavelengths from="400" to="700" step="10"/>
+  <material name="m"><emission texture="pass:p" filter="nearest"/></material><plane size="5 4" material="m"/>
+  <camera type="orthographic" height="4" look-from="0 0 5" look-at="0 0 0" size="50x40"/>
+  <pass name="p" scene="studio.xml"/><pass name="main"/></scene>)");
+    REQUIRE(run(folder, {"render", "studio.xml", "-q"}).code == 0);
+    REQUIRE(run(folder, {"render", "wall.xml", "-q", "--pass", "p", "-o", "p.exr"}).code == 0);
+    requireSame(folder, "p.exr", "studio.exr");
+    REQUIRE(run(folder, {"render", "wall.xml", "-q"}).code == 0);
+    const spectrad::Cube shown = cubeIn(folder, "wall.exr"), made = cubeIn(folder, "studio.exr");
+    double worst = 0, largest = 0;
+    REQUIRE(shown.values.size() == made.values.size());
+    for (size_t i = 0; i < made.values.size(); ++i) {
+        worst = std::max<double>(worst, std::abs(shown.values[i] - made.values[i]));
+        largest = std::max<double>(largest, made.values[i]);
+    }
+    CHECK(worst < 1e-6 * largest);
+}
+
+TEST_CASE("what a pass saves never replaces the result, and a cycle is one line before anything renders") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    std::filesystem::create_directory(folder / "kept");
+    folder.write("chain.xml", scene("pass:chart", "pass:photograph"));
+    requireError(run(folder, {"render", "chain.xml", "--pass", "chart", "-o", "kept/chart.exr"}), 2,
+                 "where pass 'chart' is saved");
+    std::string text = scene("pass:paper", "pass:photograph");
+    text.insert(text.rfind("</scene>"), "<pass name=\"paper\" of=\"room\" as=\"reflectance\"/>");
+    folder.write("cycle.xml", text);
+    requireError(run(folder, {"render", "cycle.xml"}), 1,
+                 "cycle.xml:5:26: passes need each other: paper -> paper");
+    CHECK_FALSE(std::filesystem::exists(folder / "cycle.exr"));
+}
