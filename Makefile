@@ -27,7 +27,7 @@ test: packages packages-test build/build.ninja
 
 ##test-sanitized  the unit tests under AddressSanitizer and UndefinedBehaviorSanitizer, in build-debug/
 .PHONY: test-sanitized
-UNITS := base spectrum colour scene image render
+UNITS := base spectrum colour scene image render study
 test-sanitized: packages debug-configured
 	cmake --build build-debug --target $(UNITS:%=test_%)
 	ctest --test-dir build-debug --output-on-failure --parallel $(CORES) -R '^($(subst $() $(),|,$(UNITS)))$$'

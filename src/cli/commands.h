@@ -18,6 +18,7 @@ void addRender(CLI::App& app, Action& action);
 void addObserve(CLI::App& app, Action& action);
 void addMeasure(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
+void addStudy(CLI::App& app, Action& action);
 void addInfo(CLI::App& app, Action& action);
 void addDevices(CLI::App& app, Action& action);
 void addCompletion(CLI::App& app, Action& action);

@@ -88,6 +88,7 @@ ExitCode runProgram(const std::vector<std::string>& arguments) {
     addObserve(app, action);
     addMeasure(app, action);
     addCompare(app, action);
+    addStudy(app, action);
     addInfo(app, action);
     addDevices(app, action);
     addCompletion(app, action);
