@@ -17,4 +17,5 @@ kernel void layout_probe(global uint* out) {
     out[10] = sizeof(sd_piece);
     out[11] = sizeof(sd_material);
     out[12] = sizeof(sd_texture);
+    out[13] = OFFSET(sd_texture, place);
 }

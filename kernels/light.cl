@@ -51,7 +51,7 @@ static void shade_light(sd_lobe lobe, global const sd_piece* tables, sd_light li
     switch (lobe.type) {
         case SD_LOBE_DIFFUSE: add_painted(lobe, p, s, irradiance, lit, groups, term); break;
 #ifdef HAS_ROUGH
-        case SD_LOBE_ROUGH: rough(lobe, tables, s, to_light, cos_light, irradiance, groups, at_view, lit, term); break;
+        case SD_LOBE_ROUGH: rough(lobe, tables, s, to_light, cos_light, irradiance, groups, at_view, lit, p, term); break;
 #endif
 #ifdef HAS_COATED
         case SD_LOBE_COATED: {
@@ -104,7 +104,7 @@ BLOCK_GROUP kernel void light_block(global const ulong* keys, global const uint*
     const int row = (int)(block / (uint)blocks_x), col = (int)(block % (uint)blocks_x) * SD_BLOCK;
     const int y0 = (row + frame.first_row) * SD_SUBPIXEL - frame.height * (SD_SUBPIXEL / 2);
     global const ulong* lanes = keys + (size_t)block * SD_BLOCK * SLOTS;
-    const paint p = {textures, texels};
+    const paint p = {textures, texels, (float)frame.samples};
     uint seen_material = 0, seen_offset = 0;
     int known = 0;
     for (int lane = FIRST_LANE; lane < END_LANE; lane += VW) {

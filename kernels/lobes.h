@@ -57,13 +57,25 @@ static lobe_view view_of(sd_lobe lobe, global const sd_piece* tables, surface s)
 typedef struct paint {
     global const sd_texture* textures;
     global const float* texels;
+    float samples; /* of a pixel */
 } paint;
 
-/* A diffuse lobe's g, times its texture if it has one. */
+#ifdef HAS_TEXTURE
+/* g where only a part of the surface has the lobe. */
+static inline vfloat masked(sd_lobe lobe, paint p, surface s, vfloat g, vint mask) {
+    if (lobe.strength == 0) return g;
+    texture_view view;
+    look_at_texture(p.textures[lobe.strength - 1], s, mask, p.samples, &view);
+    return g * texture_band(p.texels, &view, 0);
+}
+#endif
+
+/* A diffuse lobe's g, times its textures if it has any. */
 static inline void add_painted(sd_lobe lobe, paint p, surface s, vfloat g, vint mask, uint groups, global float* term) {
 #ifdef HAS_TEXTURE
+    g = masked(lobe, p, s, g, mask);
     if (lobe.texture != 0) {
-        add_textured(p.textures + lobe.texture - 1, p.texels, s, g, mask, groups, term);
+        add_textured(lobe, p.textures[lobe.texture - 1], p.texels, s, g, mask, p.samples, groups, lobe.steps, 0, lobe.inside, term);
         return;
     }
 #endif
@@ -71,16 +83,33 @@ static inline void add_painted(sd_lobe lobe, paint p, surface s, vfloat g, vint 
 }
 
 #ifdef HAS_ROUGH
+/* The same for single and multiple scattering of a rough diffuse lobe, whose second term has the reflectance squared. */
+static inline void add_rough(sd_lobe lobe, paint p, surface s, vfloat single, vfloat multiple, vint mask, uint groups,
+                             global float* term) {
+#ifdef HAS_TEXTURE
+    if (lobe.texture != 0) {
+        const sd_texture t = p.textures[lobe.texture - 1];
+        add_textured(lobe, t, p.texels, s, single, mask, p.samples, groups, 1, 0, 0.0f, term);
+        add_textured(lobe, t, p.texels, s, multiple, mask, p.samples, groups, lobe.steps, 1, lobe.inside,
+                     term + (size_t)t.bands * groups * SD_BLOCK);
+        return;
+    }
+#endif
+    add_to(term, select((vfloat)0.0f, single, mask));
+    add_to(term + groups * SD_BLOCK, select((vfloat)0.0f, multiple, mask));
+}
+#endif
+
+#ifdef HAS_ROUGH
 /* Oren & Nayar 1994 by its ratio B/A, in the form that keeps energy (Portsmouth, Kutz & Hill 2024): single scattering and, as a
  * term of its own because it reddens, multiple scattering. */
 static void rough(sd_lobe lobe, global const sd_piece* tables, surface s, v3 to_light, vfloat cos_light, vfloat irradiance,
-                  uint groups, lobe_view at_view, vint lit, global float* term) {
+                  uint groups, lobe_view at_view, vint lit, paint p, global float* term) {
     const vfloat beyond = fma(-cos_light, s.cos_view, dot3(to_light, s.view));
     const vfloat divisor = select((vfloat)1.0f, fmax(cos_light, s.cos_view), beyond > 0.0f);
     const vfloat single = lobe.mean_through * fma((vfloat)lobe.alpha, beyond / divisor, (vfloat)1.0f);
     const vfloat missing_light = look_up(tables + lobe.table, cell_of(cos_light));
-    add_to(term, select((vfloat)0.0f, irradiance * single, lit));
-    add_to(term + groups * SD_BLOCK, select((vfloat)0.0f, irradiance * (at_view.first * missing_light * lobe.multiple), lit));
+    add_rough(lobe, p, s, irradiance * single, irradiance * (at_view.first * missing_light * lobe.multiple), lit, groups, term);
 }
 #endif
 
@@ -118,8 +147,7 @@ static void uniform_light(sd_lobe lobe, global const sd_piece* tables, float sca
         case SD_LOBE_DIFFUSE: add_painted(lobe, p, s, scale, mask, groups, term); break;
 #ifdef HAS_ROUGH
         case SD_LOBE_ROUGH:
-            add_to(term, select((vfloat)0.0f, scale * (1.0f - at_view.first), mask));
-            add_to(term + groups * SD_BLOCK, select((vfloat)0.0f, scale * at_view.first, mask));
+            add_rough(lobe, p, s, scale * (1.0f - at_view.first), scale * at_view.first, mask, groups, term);
             break;
 #endif
 #ifdef HAS_COATED

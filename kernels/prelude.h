@@ -34,6 +34,7 @@ typedef double16 vdouble;
 #define V_DOUBLE(v) convert_double16(v)
 #define AS_UINT(v) as_uint16(v)
 #define AS_INT(v) as_int16(v)
+#define AS_FLOAT(v) as_float16(v)
 #define ANY(mask) any(mask)
 #define ALL(mask) all(mask)
 #elif VW == 1
@@ -53,6 +54,7 @@ typedef double vdouble;
 #define V_DOUBLE(v) convert_double(v)
 #define AS_UINT(v) as_uint(v)
 #define AS_INT(v) as_int(v)
+#define AS_FLOAT(v) as_float(v)
 #define ANY(mask) ((mask) != 0)
 #define ALL(mask) ((mask) != 0)
 #else

@@ -32,6 +32,9 @@ typedef struct surface {
 #ifdef HAS_TEXTURE
     vfloat u, v; /* texture coordinates, (0,0) bottom left */
 #endif
+#ifdef HAS_MIP
+    vfloat u_x, v_x, u_y, v_y; /* their change from pixel to pixel, along rows and columns, up to a common sign */
+#endif
 } surface;
 
 /* Grazing views are held a little off the horizon, where microfacet terms divide by the cosine. */
@@ -73,15 +76,36 @@ static surface surface_at(global const uint* corner, global const float* camera,
     const global float* n1 = normals + 3 * (size_t)corner[1];
     const global float* n2 = normals + 3 * (size_t)corner[2];
     v3 n;
-    n.x = fma(b2, (vfloat)n2[0], fma(b1, (vfloat)n1[0], b0 * n0[0]));
-    n.y = fma(b2, (vfloat)n2[1], fma(b1, (vfloat)n1[1], b0 * n0[1]));
-    n.z = fma(b2, (vfloat)n2[2], fma(b1, (vfloat)n1[2], b0 * n0[2]));
+    /* From corner 0: where all three are alike, so is the normal between them, to the bit. */
+    n.x = fma(b2, (vfloat)(n2[0] - n0[0]), fma(b1, (vfloat)(n1[0] - n0[0]), (vfloat)n0[0]));
+    n.y = fma(b2, (vfloat)(n2[1] - n0[1]), fma(b1, (vfloat)(n1[1] - n0[1]), (vfloat)n0[1]));
+    n.z = fma(b2, (vfloat)(n2[2] - n0[2]), fma(b1, (vfloat)(n1[2] - n0[2]), (vfloat)n0[2]));
 #ifdef HAS_TEXTURE
     const global float* t0 = coordinates + 2 * (size_t)corner[0];
     const global float* t1 = coordinates + 2 * (size_t)corner[1];
     const global float* t2 = coordinates + 2 * (size_t)corner[2];
     s.u = fma(b2, (vfloat)t2[0], fma(b1, (vfloat)t1[0], b0 * t0[0]));
     s.v = fma(b2, (vfloat)t2[1], fma(b1, (vfloat)t1[1], b0 * t0[1]));
+#endif
+#ifdef HAS_MIP
+    /* b1 and b2 before they were divided by the sum of all are linear in the ray's slopes, and so is the sum: the slopes of these
+     * belong to the triangle. Differences of corners keep the digits of small triangles. */
+    const float pixel = (float)SD_SUBPIXEL * frame.slope_per_subpixel;
+    const float e1x = p1[0] - p0[0], e1y = p1[1] - p0[1], e1z = p1[2] - p0[2];
+    const float e2x = p2[0] - p0[0], e2y = p2[1] - p0[1], e2z = p2[2] - p0[2];
+    float x1 = e2y, x2 = -e1y, y1 = -e2x, y2 = e1x, sum_x = 0.0f, sum_y = 0.0f;
+    if (!frame.orthographic) {
+        x1 = fma(e2z, p0[1], -(p0[2] * e2y)), y1 = fma(p0[2], e2x, -(e2z * p0[0]));
+        x2 = fma(p0[2], e1y, -(e1z * p0[1])), y2 = fma(e1z, p0[0], -(p0[2] * e1x));
+        sum_x = fma(e1z, e2y, -(e2z * e1y)), sum_y = fma(e1x, e2z, -(e2x * e1z));
+    }
+    const vfloat to_pixel = inv * pixel;
+    const float du1 = t1[0] - t0[0], du2 = t2[0] - t0[0], dv1 = t1[1] - t0[1], dv2 = t2[1] - t0[1];
+    const vfloat u_off = s.u - t0[0], v_off = s.v - t0[1];
+    s.u_x = fma(-u_off, (vfloat)sum_x, (vfloat)fma(x2, du2, x1 * du1)) * to_pixel;
+    s.v_x = fma(-v_off, (vfloat)sum_x, (vfloat)fma(x2, dv2, x1 * dv1)) * to_pixel;
+    s.u_y = fma(-u_off, (vfloat)sum_y, (vfloat)fma(y2, du2, y1 * du1)) * to_pixel;
+    s.v_y = fma(-v_off, (vfloat)sum_y, (vfloat)fma(y2, dv2, y1 * dv1)) * to_pixel;
 #endif
     if (frame.orthographic) {
         s.view.x = 0.0f, s.view.y = 0.0f, s.view.z = 1.0f;

@@ -1,5 +1,5 @@
 /* Adding to the sums of pixels: plain lanes, or lanes times the texels of a spectral texture. */
-#include "surface.h"
+#include "texels.h"
 
 /* Adds lanes to their pixels' sums: neighbours pairwise, so that the order of addition is the same everywhere. */
 static inline void add_to(global float* sums, vfloat v) {
@@ -28,59 +28,34 @@ static inline void add_to(global float* sums, vfloat v) {
 }
 
 #ifdef HAS_TEXTURE
-/* The four texels around a point and their weights; outside 0..1 the border goes on. */
-typedef struct texel_taps {
-    vint column0, column1, row0, row1;
-    vfloat right, down; /* weight of column1, row1 */
-} texel_taps;
-
-static texel_taps taps_at(sd_texture t, vfloat u, vfloat v) {
-    const vfloat x = clamp(u, 0.0f, 1.0f) * (float)t.width, y = (1.0f - clamp(v, 0.0f, 1.0f)) * (float)t.height;
-    texel_taps taps;
-    if (t.filter == SD_NEAREST) {
-        taps.column0 = taps.column1 = min(V_INT(x), (vint)(t.width - 1));
-        taps.row0 = taps.row1 = min(V_INT(y), (vint)(t.height - 1));
-        taps.right = taps.down = 0.0f;
-        return taps;
+/* What a lobe makes of a texel's reflectance rho: rho itself (inside 0), what a coat leaves of it, rho (1 - inside) / (1 - rho
+ * inside), or that times rho again (squared). Between two of the texture's wavelengths it is not linear, so it is taken at `steps`
+ * places of each interval, each with a term of its own. */
+static inline vfloat of_texel(sd_lobe lobe, int squared, float inside, vfloat rho) {
+#ifdef HAS_TEXTURE_CURVE
+    if (inside != 0.0f) {
+        const vfloat left = rho * (1.0f - inside) / fma(-rho, (vfloat)inside, (vfloat)1.0f);
+        return squared ? left * rho : left;
     }
-    const vfloat left = floor(x - 0.5f), top = floor(y - 0.5f);
-    taps.right = (x - 0.5f) - left;
-    taps.down = (y - 0.5f) - top;
-    const vint last_column = t.width - 1, last_row = t.height - 1;
-    taps.column0 = clamp(V_INT(left), (vint)0, last_column);
-    taps.column1 = clamp(V_INT(left) + 1, (vint)0, last_column);
-    taps.row0 = clamp(V_INT(top), (vint)0, last_row);
-    taps.row1 = clamp(V_INT(top) + 1, (vint)0, last_row);
-    return taps;
+#endif
+    return rho;
 }
 
-/* g times each band of the texture, lane by lane: bands lie together in memory, lanes do not. sums: the lobe's first term. */
-static void add_textured(global const sd_texture* texture, global const float* texels, surface s, vfloat g, vint mask, uint groups,
-                         global float* sums) {
-    const sd_texture t = *texture;
-    const texel_taps taps = taps_at(t, s.u, s.v);
-    int used[VW], column0[VW], column1[VW], row0[VW], row1[VW];
-    float lane_g[VW], right[VW], down[VW];
-    VSTORE(mask, used);
-    VSTORE(taps.column0, column0);
-    VSTORE(taps.column1, column1);
-    VSTORE(taps.row0, row0);
-    VSTORE(taps.row1, row1);
-    VSTORE(g, lane_g);
-    VSTORE(taps.right, right);
-    VSTORE(taps.down, down);
-    for (int i = 0; i < VW; ++i) {
-        if (used[i] == 0) continue;
-        global const float* above = texels + t.first + (size_t)row0[i] * t.width * t.bands;
-        global const float* below = texels + t.first + (size_t)row1[i] * t.width * t.bands;
-        const size_t from = (size_t)column0[i] * t.bands, to = (size_t)column1[i] * t.bands;
-        global float* pixel = sums + i / SLOTS;
-        for (int band = 0; band < t.bands; ++band) {
-            const float a = fma(right[i], above[to + band] - above[from + band], above[from + band]);
-            const float b = fma(right[i], below[to + band] - below[from + band], below[from + band]);
-            pixel[(size_t)band * groups * SD_BLOCK] += lane_g[i] * fma(down[i], b - a, a);
+/* g times what the lobe makes of each band of its texture, to terms [band][step][light group] from `sums` on. */
+static void add_textured(sd_lobe lobe, sd_texture t, global const float* texels, surface s, vfloat g, vint mask, float samples,
+                         uint groups, int steps, int squared, float inside, global float* sums) {
+    texture_view view;
+    look_at_texture(t, s, mask, samples, &view);
+    const size_t next_term = (size_t)groups * SD_BLOCK;
+    vfloat here = texture_band(texels, &view, 0);
+    for (int band = 0; band < t.bands; ++band) {
+        const vfloat next = band + 1 < t.bands ? texture_band(texels, &view, band + 1) : here;
+        const int count = band + 1 < t.bands ? steps : 1;
+        for (int k = 0; k < count; ++k, sums += next_term) {
+            const vfloat rho = k == 0 ? here : fma((vfloat)((float)k / (float)steps), next - here, here);
+            add_to(sums, select((vfloat)0.0f, g * of_texel(lobe, squared, inside, rho), mask));
         }
+        here = next;
     }
 }
 #endif
-

@@ -120,18 +120,26 @@ typedef struct sd_lobe {
     float multiple;      /* factor of missing(view) missing(light), 1/sr; ROUGH: 1 / (1 - mean albedo) */
     float alpha;         /* FACETS: GGX width, roughness squared, 0 a mirror; ROUGH: B / A of Oren and Nayar */
     float mean_through;  /* COATED: cosine-weighted mean of what is let through; ROUGH: A */
-    sd_uint texture;     /* DIFFUSE, COATED: 1 + number of the texture that is the reflectance; 0: none */
-    sd_uint pad_;
+    sd_uint texture;     /* DIFFUSE, COATED, ROUGH: 1 + number of the texture that paints the lobe; 0: none */
+    sd_uint strength;    /* the same: 1 + number of the texture whose one band multiplies g; 0: none */
+    sd_int steps;        /* of a painted lobe: terms for each interval between bands, see texture.h */
+    float inside;        /* COATED: reflectance of the coat from inside; ROUGH: 1 - mean albedo; 0: linear in the texel */
 } sd_lobe;
 
-/* A spectral texture: texels[first + (row * width + column) * bands + band], row 0 on top. The lobe has a term for each of its
- * bands: terms run [band][light group]. */
+/* A texture: texels[first + (row * width + column) * bands + band], row 0 on top; then, for SD_MIP, levels of half the size each.
+ * Bands are reflectances at wavelengths, shares of measured spectra, a strength or directions. A lobe that is painted has terms
+ * [band][step][light group]; with ROUGH those of single scattering, [band][light group], come first. */
 #define SD_NEAREST 0
 #define SD_BILINEAR 1
+#define SD_MIP 2
+#define SD_CLAMP 0
+#define SD_REPEAT 1
 typedef struct sd_texture {
     sd_ulong first;
     sd_int width, height, bands;
-    sd_int filter;
+    sd_int filter, wrap;
+    sd_int levels;
+    float place[6]; /* u = place[0] u + place[1] v + place[2] of the surface's coordinates, v = place[3] u + place[4] v + place[5] */
 } sd_texture;
 
 typedef struct sd_material {
@@ -141,7 +149,7 @@ typedef struct sd_material {
 
 #ifndef __OPENCL_VERSION__
 static_assert(sizeof(sd_frame) == 56 && sizeof(sd_draw) == 144 && sizeof(sd_vertex) == 16 && sizeof(sd_large) == 64 + 0 &&
-                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 40 && sizeof(sd_texture) == 24 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 16,
+                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 48 && sizeof(sd_texture) == 56 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 16,
               "layout shared with the kernels");
 #endif
 

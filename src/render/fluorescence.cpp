@@ -20,10 +20,17 @@ FluorescentBase::FluorescentBase(const Material& material, double inside, Notes&
         base_ = material.diffuse->reflectance->curve();
         black_ = base_.isConstant() && base_.at(550) == 0;
     }
-    for (const Fluorescence& part : material.fluorescence)
-        if (!part.matrixFile.empty()) addMatrix(part, material, notes);
-    for (const Fluorescence& part : material.fluorescence)
-        if (part.matrixFile.empty()) addSeparable(part);
+    const auto& parts = material.fluorescence;
+    for (size_t i = 0; i < parts.size(); ++i) {
+        if (parts[i].matrixFile.empty()) continue;
+        addMatrix(parts[i], material, notes);
+        bispectral_.back().number = i;
+    }
+    for (size_t i = 0; i < parts.size(); ++i) {
+        if (!parts[i].matrixFile.empty()) continue;
+        addSeparable(parts[i]);
+        separable_.back().number = i;
+    }
     checkAbsorption(material, notes);
     if (!separable_.empty() || !bispectral_.empty()) black_ = false;
 }
@@ -157,11 +164,20 @@ Curve FluorescentBase::reflectance() const {
 }
 
 std::vector<Curve> FluorescentBase::reradiation(const Curve& light) const {
+    std::vector<size_t> all(separable_.size() + bispectral_.size());
+    std::iota(all.begin(), all.end(), size_t{0});
+    return reradiation(light, all);
+}
+
+std::vector<Curve> FluorescentBase::reradiation(const Curve& light, std::span<const size_t> parts) const {
+    const auto wanted = [&](const auto& part) {
+        return std::find(parts.begin(), parts.end(), part.number) != parts.end();
+    };
     std::vector<Curve> curves;
     for (const Separable& part : separable_)
-        curves.push_back(glow(part, light));
+        if (wanted(part)) curves.push_back(glow(part, light));
     for (const Bispectral& part : bispectral_)
-        curves.push_back(glow(part, light));
+        if (wanted(part)) curves.push_back(glow(part, light));
     return curves;
 }
 

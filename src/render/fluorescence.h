@@ -6,6 +6,7 @@
 #include "spectrum/curve.h"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,8 @@ class FluorescentBase {
     [[nodiscard]] std::vector<Curve> reradiation(const Curve& light) const;
     /// One for each fluorophore, in the order of reradiation().
     [[nodiscard]] std::vector<FluorophoreFigures> figures() const;
+    /// Of those fluorophores of the material alone whose numbers are listed.
+    [[nodiscard]] std::vector<Curve> reradiation(const Curve& light, std::span<const size_t> parts) const;
 
   private:
     struct Separable {
@@ -60,6 +63,7 @@ class FluorescentBase {
         double factor;     ///< Q · strength ÷ that integral
         double strength, yield;
         bool antiStokes;
+        size_t number;  ///< in the material
     };
     struct Bispectral {
         std::vector<double> emission, bandCentre, bandFrom, bandTo;
@@ -69,6 +73,7 @@ class FluorescentBase {
         /// Photons out per photon in of a column (energy: without the ratio of wavelengths).
         [[nodiscard]] double photonsOut(size_t column) const;
         [[nodiscard]] double energyOut(size_t column) const;
+        size_t number = 0;  ///< in the material
     };
     void addSeparable(const Fluorescence& part);
     /// Fluorophores that share a wavelength cannot each take all of it.

@@ -178,6 +178,11 @@ std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, c
         surroundings.type = SD_LIGHT_SURROUNDINGS;
         add(*scene.background, std::numbers::pi, surroundings);
     }
+    // Equal-energy light is there to be divided by: with this irradiance a white diffuser sends back exactly
+    // 1, and what is divided by it keeps its bits.
+    if (equalEnergy)
+        for (LightGroup& group : groups)
+            if (group.factor != 0) group.factor = std::numbers::pi;
     return groups;
 }
 

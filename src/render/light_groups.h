@@ -26,7 +26,8 @@ struct LightGroup {
 
 /// Places the scene's lights for a view and groups them. Lights of no power are kept: they cost little and
 /// change nothing. Where no ambient light is, the background comes last, for mirrors to show. `equalEnergy`:
-/// every light has a constant spectrum of the same amount instead of its own.
+/// every light has a constant spectrum instead of its own; amounts count
+/// relative to each other only.
 [[nodiscard]] std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view,
                                                   const Detector& observer, std::vector<sd_light>& lights,
                                                   bool equalEnergy = false);

@@ -2,10 +2,8 @@
 // how much of the light each leaves to the next, so that nothing gains energy.
 #include "render/coat.h"
 #include "render/facets.h"
-#include "render/fluorescence.h"
 #include "render/fresnel.h"
 #include "render/term_table.h"
-#include "spectrum/projection.h"
 
 #include <fmt/format.h>
 
@@ -19,28 +17,6 @@ namespace {
 
 constexpr double inversePi = 1 / std::numbers::pi;
 
-/// Where radiances come from other bands than they go to, the signed values between sharp lines would leave
-/// bands below zero.
-void holdAboveZero(SpectralTexture& texture, const TextureUse& use, Notes& notes) {
-    size_t clipped = 0;
-    for (float& value : texture.texels)
-        if (value < 0) ++clipped, value = 0;
-    if (clipped > 0)
-        notes.say(
-            fmt::format("{}: {} of {} radiances came out below zero between the bands: set to zero "
-                        "(none would on the same wavelengths)",
-                        use.source, clipped, texture.texels.size()));
-}
-
-/// One at nm[t], linear to zero at its neighbours.
-Curve hatAt(const std::vector<double>& nm, size_t t, Outside outside) {
-    std::vector<double> at, value;
-    if (t > 0) at.push_back(nm[t - 1]), value.push_back(0);
-    at.push_back(nm[t]), value.push_back(1);
-    if (t + 1 < nm.size()) at.push_back(nm[t + 1]), value.push_back(0);
-    return Curve::table(at, value, outside);
-}
-
 const Curve& one() {
     static const Curve curve = Curve::constant(1);
     return curve;
@@ -48,97 +24,15 @@ const Curve& one() {
 
 }  // namespace
 
-void TermBuilder::addDiffuse(const Material& material) {
-    const Curve& base = material.diffuse->reflectance->curve();
-    if (material.diffuse->roughnessDegrees > 0) {
-        addRough(material, base);
-        return;
-    }
-    addCoatedBase(material, one(), {}, 1, 0);
-}
-
 void TermBuilder::addCoatedBase(const Material& material, const Curve& weight, const AngleFunction& through,
                                 double meanThrough, double inside) {
-    const bool coated = static_cast<bool>(through);
-    const FluorescentBase base(material, inside, notes_);
-    if (base.isBlack()) return;
-    sd_lobe lobe = beginLobe(coated ? SD_LOBE_COATED : SD_LOBE_DIFFUSE);
-    if (coated) {
-        lobe.table = addTables({tabulate(through)});
-        lobe.mean_through = static_cast<float>(meanThrough);
-    }
-    const double scale = inversePi / std::max(meanThrough, 1e-12);
-    for (const LightGroup& group : groups_) {
-        std::vector<Summand> sum;
-        const Curve reflectance = base.reflectance();
-        const std::vector<Curve> glow = base.reradiation(group.spectrum);
-        if (only_ != Only::fluorescence)
-            sum.push_back({{&group.spectrum, &reflectance, &weight}, group.factor * scale});
-        if (only_ != Only::reflection)
-            for (const Curve& curve : glow)
-                sum.push_back({{&curve, &weight}, group.factor * scale});
-        // A weight of a polynomial is signed by nature; without one only noise of a measured matrix is.
-        addTerm(sum, &weight == &one());
-    }
-    endLobe(lobe);
-}
-
-std::uint32_t TermBuilder::addTexture(const TextureUse& use, std::vector<double>& nm) {
-    SpectralTexture texture = textures_.load(use);
-    if (use.role == TextureRole::radiance && texture.nm != grid_.nm) holdAboveZero(texture, use, notes_);
-    sd_texture t{};
-    t.first = world_.texels.size();
-    t.width = texture.width;
-    t.height = texture.height;
-    t.bands = static_cast<sd_int>(texture.nm.size());
-    t.filter = texture.nearest ? SD_NEAREST : SD_BILINEAR;
-    world_.texels.insert(world_.texels.end(), texture.texels.begin(), texture.texels.end());
-    world_.textures.push_back(t);
-    nm = std::move(texture.nm);
-    return static_cast<std::uint32_t>(world_.textures.size());
-}
-
-// With texels linear between their wavelengths, each of these is a term: light × hat of that wavelength,
-// exact for any lamp.
-void TermBuilder::addTextured(const Material& material) {
-    if (only_ == Only::fluorescence) return;
-    std::vector<double> nm;
-    sd_lobe lobe = beginLobe(SD_LOBE_DIFFUSE);
-    lobe.texture = addTexture(*material.diffuse->texture, nm);
-    for (size_t t = 0; t < nm.size(); ++t)
-        addGroupTerms(hatAt(nm, t, Outside::hold), inversePi);
-    endLobe(lobe);
-}
-
-// The same without a lamp: a radiance's own hats.
-void TermBuilder::addGlowing(const TextureUse& use, double factor) {
-    std::vector<double> nm;
-    sd_lobe lobe = beginLobe(SD_LOBE_EMISSION);
-    lobe.texture = addTexture(use, nm);
-    for (size_t t = 0; t < nm.size(); ++t) {
-        // A single band says nothing of how wide it is: it counts everywhere.
-        const Curve hat = hatAt(nm, t, nm.size() == 1 ? Outside::hold : Outside::zero);
-        addTerm({{{&hat}, factor}});
-    }
-    endLobe(lobe);
-}
-
-void TermBuilder::addRough(const Material& material, const Curve& base) {
-    const OrenNayar model = orenNayar(material.diffuse->roughnessDegrees);
-    sd_lobe lobe = beginLobe(SD_LOBE_ROUGH);
-    lobe.table = addTables({tabulate([&](double c) { return std::max(0.0, 1 - model.albedo(c)); })});
-    lobe.alpha = static_cast<float>(model.b / model.a);
-    lobe.mean_through = static_cast<float>(model.a);
-    lobe.multiple = static_cast<float>(1 / std::max(1 - model.mean, 1e-12));
-    if (only_ == Only::fluorescence) return;
-    addGroupTerms(base, inversePi);
-    const double mean = model.mean;
-    addGroupTerms(Curve::combined({base},
-                                  [mean](std::span<const double> v) {
-                                      return v[0] * v[0] * mean / (1 - v[0] * (1 - mean));
-                                  }),
-                  inversePi);
-    endLobe(lobe);
+    Base base;
+    base.type = through ? SD_LOBE_COATED : SD_LOBE_DIFFUSE;
+    if (&weight != &one()) base.weight = &weight;
+    if (through) base.table = addTables({tabulate(through)});
+    base.meanThrough = meanThrough;
+    base.inside = inside;
+    addBase(material, base);
 }
 
 void TermBuilder::addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra,
@@ -238,9 +132,10 @@ std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) 
     const auto refuse = [&](const char* what) {
         throw InputError(material.where, "material '" + material.name + "': " + what);
     };
-    const bool textured = material.diffuse && material.diffuse->texture;
-    if (textured && (material.gloss || material.specular)) refuse("texture= under a coat is not there yet");
-    if (textured && !material.fluorescence.empty()) refuse("texture= beside <fluorescence> is not there yet");
+    const bool rough = material.diffuse && material.diffuse->roughnessDegrees > 0;
+    if (material.diffuse && material.diffuse->texture && material.gloss && !material.fluorescence.empty())
+        refuse(
+            "texture= beside <fluorescence> under a <gloss> is not there yet (reflectance= and select= are)");
     if (material.conductor &&
         (material.diffuse || material.gloss || material.specular || !material.fluorescence.empty()))
         refuse(
@@ -248,11 +143,8 @@ std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) 
             "<fluorescence>");
     if (material.gloss && material.specular)
         refuse("<gloss> and <specular> both describe the surface: give one of them");
-    if (material.diffuse && material.diffuse->roughnessDegrees > 0 &&
-        (material.gloss || material.specular || !material.fluorescence.empty()))
+    if (rough && (material.gloss || material.specular || !material.fluorescence.empty()))
         refuse("roughness= of <diffuse> goes with no coat and no fluorescence");
-    if (textured && material.diffuse->roughnessDegrees > 0)
-        refuse("roughness= of <diffuse> beside texture= is not there yet");
 
     const std::uint32_t number = beginMaterial();
     if (material.emission && only_ == Only::everything) {
@@ -265,16 +157,14 @@ std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) 
         }
     }
     if (groups_.empty()) return number;
-    if (textured)
-        addTextured(material);
-    else if (material.conductor)
+    if (material.conductor)
         addConductor(material);
     else if (material.gloss)
         addGloss(material);
     else if (material.specular)
         addSpecular(material);
-    else if (material.diffuse && material.diffuse->roughnessDegrees > 0)
-        addDiffuse(material);
+    else if (rough)
+        addRough(material);
     else if (material.diffuse || !material.fluorescence.empty())
         addCoatedBase(material, one(), {}, 1, 0);
     return number;

@@ -110,7 +110,6 @@ SpectralTexture PassTextures::Body::texture(size_t user, const Pass& pass, const
             texture.nm = node.grid.nm;
             texture.texels.assign(texture.nm.size(), 0.0f);
         }
-        texture.nearest = use.nearest;
         return texture;
     }
     throw InputError(use.where, "pass '" + pass.name + "' is not part of the render graph");

@@ -4,6 +4,7 @@
 #include "colour/detector.h"
 #include "render/range_check.h"
 #include "render/samples.h"
+#include "render/texels.h"
 #include "scene/pass_needs.h"
 #include "spectrum/library.h"
 
@@ -109,6 +110,9 @@ std::vector<std::string> featuresOf(const std::vector<const Material*>& material
         if (m->gloss) features.insert("gloss");
         if (m->emission) features.insert("emission");
         if (!texturesOf(*m).empty()) features.insert("texture");
+        if (m->diffuse && m->diffuse->select) features.insert("select");
+        for (const Fluorescence& part : m->fluorescence)
+            if (part.mask) features.insert("mask");
         if (m->specular) features.insert("specular");
         if (m->conductor) features.insert("conductor");
         if (!m->fluorescence.empty()) features.insert("fluorescence");
@@ -136,7 +140,8 @@ std::vector<std::string> definesOf(const World& world, int samples) {
         if (lobe.type == SD_LOBE_COATED) defines.insert("HAS_COATED");
         if (lobe.type == SD_LOBE_FACETS) defines.insert("HAS_FACETS");
     }
-    if (!world.textures.empty()) defines.insert("HAS_TEXTURE");
+    for (const std::string& define : textureDefines(world))
+        defines.insert(define);
     return {defines.begin(), defines.end()};
 }
 

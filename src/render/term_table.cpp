@@ -76,6 +76,7 @@ sd_lobe TermBuilder::beginLobe(int type) const {
     sd_lobe lobe{};
     lobe.type = type;
     lobe.term = static_cast<sd_uint>(terms_.count()) - world_.materials.back().first_term;
+    lobe.steps = 1;
     return lobe;
 }
 

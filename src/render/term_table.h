@@ -11,6 +11,7 @@
 #include "spectrum/wavelengths.h"
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -58,15 +59,31 @@ class TermBuilder {
     void endLobe(const sd_lobe& lobe);
     std::uint32_t addTables(const std::vector<std::vector<sd_piece>>& tables);
 
-    void addTextured(const Material& material);
-    void addDiffuse(const Material& material);
-    void addRough(const Material& material, const Curve& base);
+    /// What the diffuse part of a material lies under.
+    struct Base {
+        int type = SD_LOBE_DIFFUSE;     ///< or SD_LOBE_COATED
+        const Curve* weight = nullptr;  ///< one more factor of the spectrum
+        std::uint32_t table = 0;
+        double meanThrough = 1, inside = 0;  ///< of the coat
+    };
+    void addBase(const Material& material, const Base& base);
+    void addTexturedBase(const Material& material, const Base& base);
+    void addRough(const Material& material);
+    [[nodiscard]] sd_lobe beginBase(const Base& base) const;
+    void addBaseTerm(const Base& base, const LightGroup& group, const std::vector<Curve>& reflected,
+                     const std::vector<Curve>& glow, double sign = 1);
     void addGloss(const Material& material);
     void addSpecular(const Material& material);
     void addConductor(const Material& material);
     void addGlowing(const TextureUse& use, double factor);
-    /// A texture in the world, counted from 1; its wavelengths in `nm`.
-    std::uint32_t addTexture(const TextureUse& use, std::vector<double>& nm);
+    /// Images in the world, each once however often it is used: 1 + its number, the wavelengths of its bands.
+    struct Image {
+        std::uint32_t number = 0;
+        std::vector<double> nm;
+    };
+    const Image& spectralTexture(const TextureUse& use);
+    std::uint32_t strengthTexture(const TextureUse& use);
+    std::uint32_t shareTexture(const Select& select);
     /// Diffuse base under a coat, its terms weighted by `weight` (one factor of the spectrum).
     void addCoatedBase(const Material& material, const Curve& weight, const AngleFunction& through,
                        double meanThrough, double inside);
@@ -81,6 +98,7 @@ class TermBuilder {
     World& world_;
     TermTable& terms_;
     Notes& notes_;
+    std::map<std::string, Image> images_;  ///< by what they are and how they lie
 };
 
 }  // namespace spectrad

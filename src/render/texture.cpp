@@ -99,16 +99,14 @@ SpectralTexture TextureLoader::load(const TextureUse& use) {
     } else {
         texture = textureFrom(readCube(use.source, notes_), use, notes_);
     }
-    texture.nearest = use.nearest;
     return texture;
 }
 
-SpectralTexture TextureLoader::loadPass(const Pass& pass, const TextureUse& use) {
+SpectralTexture TextureLoader::loadPass(const Pass& pass, const TextureUse&) {
     SpectralTexture texture;
     texture.width = texture.height = 1;
     texture.nm = gridOf(shotOf(scene_, pass), {}).nm;
     texture.texels.assign(texture.nm.size(), 0.0f);
-    texture.nearest = use.nearest;
     return texture;
 }
 

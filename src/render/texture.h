@@ -11,11 +11,16 @@
 
 namespace spectrad {
 
+/// An image of any number of bands.
+struct Texels {
+    int width = 0, height = 0, bands = 1;
+    std::vector<float> texels;  ///< [(row * width + column) * bands + band], row 0 on top
+};
+
 struct SpectralTexture {
     int width = 0, height = 0;
     std::vector<double> nm;     ///< ascending
-    bool nearest = false;       ///< no interpolation between texels
-    std::vector<float> texels;  ///< [(row * width + column) * bands + band], row 0 on top
+    std::vector<float> texels;  ///< [(row * width + column) * nm + band], row 0 on top
 };
 
 /// A cube as a texture: slit averages become the nodal values of the curve that has them; reflectances are

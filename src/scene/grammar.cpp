@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::string_view shapes = "mesh sphere box plane disc cylinder cone torus teapot ";
 constexpr std::string_view transforms = " translate rotate scale matrix";
+/// How an image lies on texture coordinates.
+constexpr std::string_view samplings = " filter wrap offset scale rotate";
 constexpr std::string_view amounts = " intensity power illuminance irradiance luminance radiance";
 
 /// Attributes: '!' marks required ones. Children: '1' marks those that may stand there once. "#text" allows
@@ -41,18 +43,20 @@ ElementRule rule(std::string_view name, const std::string& attributes, const std
 
 std::vector<ElementRule> makeGrammar() {
     const std::string graph = std::string(shapes) + "node instance import light camera";
-    const std::string transform(transforms), amount(amounts);
+    const std::string transform(transforms), amount(amounts), sampling(samplings);
     return {
         rule("scene", "version unit",
              "wavelengths1 spectrum material " + graph + " background1 detector pass"),
         rule("wavelengths", "from to step projection", "#text"),
         rule("spectrum", "name! quantity relative value file column", "#text"),
         rule("material", "name!", "diffuse1 gloss1 specular1 conductor1 fluorescence emission1"),
-        rule("diffuse", "reflectance texture filter roughness"),
+        rule("diffuse", "reflectance texture select values roughness" + sampling, "choose"),
+        rule("choose", "value! reflectance!"),
         rule("gloss", "ior! roughness"),
         rule("specular", "reflectance! roughness"),
         rule("conductor", "ior! roughness fresnel"),
-        rule("fluorescence", "excitation emission yield strength emission-unit anti-stokes matrix diagonal"),
+        rule("fluorescence",
+             "excitation emission yield strength emission-unit anti-stokes matrix diagonal mask" + sampling),
         rule("emission", "spectrum luminance radiance scale texture filter"),
         rule("node", "name" + transform, graph),
         rule("instance", "of! name" + transform),

@@ -98,16 +98,6 @@ Emitter readEmitter(Reading& reading, const Element& element, SourceKind kind, c
     return emitter;
 }
 
-TextureUse readTexture(Reading& reading, const Element& element, TextureRole role) {
-    TextureUse use;
-    use.role = role;
-    use.where = element.where("texture");
-    use.source = element.text("texture");
-    if (!use.isPass()) use.source = reading.file(element, "texture").string();
-    use.nearest = element.choice<bool>("filter", {{"bilinear", false}, {"nearest", true}}, false);
-    return use;
-}
-
 Emitter readGlow(Reading& reading, const Element& element, const std::string& what) {
     if (element.has("spectrum") == element.has("texture"))
         element.fail(element.has("texture") ? "has both 'spectrum' and 'texture' (one is allowed)"

@@ -10,14 +10,24 @@ namespace spectrad {
 namespace {
 
 Diffuse readDiffuse(Reading& reading, const Element& element) {
-    if (element.has("reflectance") == element.has("texture"))
-        element.fail(element.has("texture") ? "has both 'reflectance' and 'texture' (one is allowed)"
-                                            : "needs the attribute 'reflectance' or 'texture'");
+    std::vector<std::string> given;
+    for (const char* source : {"reflectance", "texture", "select"})
+        if (element.has(source)) given.push_back(fmt::format("'{}'", source));
+    if (given.size() != 1)
+        element.fail(given.empty() ? "needs the attribute 'reflectance', 'texture' or 'select'"
+                                   : fmt::format("has both {} and {} (one is allowed)", given[0], given[1]));
+    if (!element.has("select")) {
+        element.refuse("values", "stands only beside 'select'");
+        if (const auto choice = element.child("choose"))
+            choice->fail("stands only in a <diffuse> with 'select'");
+    }
     Diffuse diffuse;
     if (element.has("texture")) {
         diffuse.texture = readTexture(reading, element, TextureRole::reflectance);
+    } else if (element.has("select")) {
+        diffuse.select = readSelect(reading, element);
     } else {
-        element.refuse("filter", "stands only beside 'texture'");
+        refuseSampling(element, "stands only beside 'texture' or 'select'");
         diffuse.reflectance = reading.spectrum(element, "reflectance", Role::reflectance);
     }
     diffuse.roughnessDegrees = element.number("roughness", 0, {0, 90, true, true});
@@ -40,6 +50,10 @@ Spectrum readIndex(Reading& reading, const Element& element, size_t curves) {
 Fluorescence readFluorescence(Reading& reading, const Element& element) {
     Fluorescence result;
     result.where = element.where();
+    if (element.has("mask"))
+        result.mask = readPicture(reading, element, "mask");
+    else
+        refuseSampling(element, "stands only beside 'mask'");
     if (element.has("matrix")) {
         for (const char* attribute :
              {"excitation", "emission", "yield", "strength", "emission-unit", "anti-stokes"})

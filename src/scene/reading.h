@@ -94,6 +94,11 @@ enum class SourceKind { intensity, irradiance, radiance };
 
 /// texture="file | pass:NAME" with its filter=.
 [[nodiscard]] TextureUse readTexture(Reading& reading, const Element& element, TextureRole role);
+/// A picture that an attribute names, and how it lies on the surface.
+[[nodiscard]] TextureUse readPicture(Reading& reading, const Element& element, const char* attribute);
+[[nodiscard]] Select readSelect(Reading& reading, const Element& element);
+/// Where no image is, nothing says how one lies.
+void refuseSampling(const Element& element, const std::string& why);
 /// What glows: an emitter of radiance, or texture= with scale=.
 [[nodiscard]] Emitter readGlow(Reading& reading, const Element& element, const std::string& what);
 

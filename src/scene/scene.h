@@ -9,6 +9,7 @@
 #include "spectrum/spectrum.h"
 #include "spectrum/wavelengths.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -44,9 +45,15 @@ struct Amount {
 
 /// What a texture's values must be where it is used.
 enum class TextureRole { reflectance, radiance };
+enum class TextureFilter { nearest, bilinear, mip };
+/// An image on a surface: where it comes from, and how it lies on the surface's texture coordinates.
 struct TextureUse {
-    std::string source;    ///< file name, or "pass:NAME"
-    bool nearest = false;  ///< filter="nearest": no interpolation between texels
+    std::string source;  ///< file name, or "pass:NAME"
+    TextureFilter filter = TextureFilter::bilinear;
+    bool repeat = false;  ///< beyond 0…1; else the border goes on
+    /// Coordinates are scaled, then rotated (degrees, from u to v), then moved.
+    std::array<double, 2> offset{0, 0}, scale{1, 1};
+    double rotateDegrees = 0;
     TextureRole role = TextureRole::reflectance;
     SourceLocation where;
 
@@ -67,9 +74,22 @@ struct Emitter {
 // ---- materials
 // -----------------------------------------------------------------------------------------------------
 
+/// A picture whose values stand for measured reflectances.
+struct Select {
+    struct Choice {
+        std::uint32_t value = 0;  ///< 0…255 of a grey picture; 0x1RRGGBB of a coloured one
+        Spectrum reflectance;
+        SourceLocation where;
+    };
+    TextureUse map;
+    bool mix = false;  ///< a value between two choices' is a mixture of the two; else it is an error
+    std::vector<Choice> choices;  ///< values ascending
+};
+
 struct Diffuse {
-    std::optional<Spectrum> reflectance;  ///< exactly one of reflectance, texture
+    std::optional<Spectrum> reflectance;  ///< exactly one of reflectance, texture, select
     std::optional<TextureUse> texture;
+    std::optional<Select> select;
     double roughnessDegrees = 0;  ///< Oren–Nayar's σ; 0 is Lambert
 };
 /// Dielectric coat; GGX alpha = roughness².
@@ -92,6 +112,7 @@ struct Fluorescence {
     double yield = 1, strength = 1;
     std::string matrixFile;  ///< instead of the three above
     bool diagonalNone = false;
+    std::optional<TextureUse> mask;  ///< grey picture 0…1 that multiplies the strength
     SourceLocation where;
 };
 

@@ -142,14 +142,14 @@ TEST_CASE("structs have the same layout on host and device") {
     DeviceArray<std::uint32_t> out;
     out.reserve(device, 16, "the probe");
     probe.set("out", out.buffer()).run(1);
-    const auto sizes = read<std::uint32_t>(device, out.buffer(), 13);
+    const auto sizes = read<std::uint32_t>(device, out.buffer(), 14);
     const std::vector<std::uint32_t> expected{sizeof(sd_frame),          offsetof(sd_frame, tiles_y),
                                               sizeof(sd_draw),           offsetof(sd_draw, normal),
                                               sizeof(sd_vertex),         sizeof(sd_large),
                                               offsetof(sd_large, key),   sizeof(sd_light),
                                               offsetof(sd_light, group), sizeof(sd_lobe),
                                               sizeof(sd_piece),          sizeof(sd_material),
-                                              sizeof(sd_texture)};
+                                              sizeof(sd_texture),        offsetof(sd_texture, place)};
     CHECK(sizes == expected);
 }
 

@@ -3,7 +3,10 @@
 #include "render/facets.h"
 #include "render/fresnel.h"
 #include "render/samples.h"
+#include "render/texels.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -75,23 +78,40 @@ void addMaterials(Plan& plan) {
     begin(), addLobe(plan, SD_LOBE_ROUGH, term, 0.4), end(term);
     term = 0;
     begin(), addLobe(plan, SD_LOBE_FACETS, term, 0.09, 3, true), end(term);
-    // Lambert and coat over textures, filtered and not; the same textures glowing.
-    for (const int filter : {SD_BILINEAR, SD_NEAREST}) {
-        sd_texture t{};
-        t.first = world.texels.size();
-        t.width = 5, t.height = 3, t.bands = 4;
-        t.filter = filter;
-        for (int i = 0; i < t.width * t.height * t.bands; ++i)
-            world.texels.push_back(static_cast<float>((i * 37 % 101) / 100.0));
+    // Lambert, coat and rough diffuse over textures: every filter, both ways beyond the border, turned,
+    // masked; and glowing.
+    for (const TextureFilter filter : {TextureFilter::bilinear, TextureFilter::nearest, TextureFilter::mip}) {
+        TextureUse use;
+        use.filter = filter;
+        use.repeat = filter != TextureFilter::nearest;
+        if (use.repeat) use.scale = {1.36, 1.0}, use.rotateDegrees = 20, use.offset = {0.2, -0.6};
+        Texels image{5, 3, 4, {}};
+        for (int i = 0; i < 5 * 3 * 4; ++i)
+            image.texels.push_back(static_cast<float>((i * 37 % 101) / 100.0));
+        const sd_uint number = addTexels(world, image, use);
+        // A strength beside it: the same texels read as one band.
+        sd_texture t = world.textures.back();
+        t.bands = 1, t.width = 7, t.levels = 1;
         world.textures.push_back(t);
+        const int steps = filter == TextureFilter::nearest ? 3 : filter == TextureFilter::mip ? 2 : 1;
+        const std::uint32_t blocks = static_cast<std::uint32_t>(3 * steps + 1);
         term = 0;
-        begin(), addLobe(plan, filter == SD_NEAREST ? SD_LOBE_COATED : SD_LOBE_DIFFUSE, term, 0);
-        world.lobes.back().texture = static_cast<sd_uint>(world.textures.size());
-        term += 3 * plan.groups;
+        begin();
+        addLobe(plan,
+                filter == TextureFilter::nearest ? SD_LOBE_COATED
+                : filter == TextureFilter::mip   ? SD_LOBE_ROUGH
+                                                 : SD_LOBE_DIFFUSE,
+                term, 0.4);
+        sd_lobe& lobe = world.lobes.back();
+        lobe.texture = number;
+        lobe.strength = filter == TextureFilter::bilinear ? number + 1 : 0;
+        lobe.inside = filter == TextureFilter::bilinear ? 0.0f : 0.55f;
+        lobe.steps = steps;
+        term = plan.groups * (filter == TextureFilter::mip ? 4 + blocks : blocks);
         addLobe(plan, SD_LOBE_EMISSION, term, 0);
-        world.lobes.back().texture = static_cast<sd_uint>(world.textures.size());
-        term += 3;
-        end(term);
+        world.lobes.back().texture = number;
+        world.lobes.back().steps = 1;
+        end(term + 3);
     }
     plan.terms.bands = 7;
     Random random(99);
@@ -131,9 +151,10 @@ Plan emptyPlan(int samples, bool orthographic, int width, int height) {
     plan.view.pixelsPerSlope = orthographic ? height / 4.0 : height * 0.9;
     plan.wavelengths.nm = {400, 450, 500, 550, 600, 650, 700};
     plan.defines = {
-        "HAS_COATED",  "HAS_FACETS",      "HAS_ROUGH",
-        "HAS_TEXTURE", "HAS_UNIFORM",     "HAS_POINT",
-        "HAS_SPOT",    "HAS_DIRECTIONAL", "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
+        "HAS_COATED",  "HAS_FACETS",        "HAS_ROUGH",
+        "HAS_TEXTURE", "HAS_UNIFORM",       "HAS_POINT",
+        "HAS_MIP",     "HAS_TEXTURE_CURVE", "HAS_TEXTURE_PLACE",
+        "HAS_SPOT",    "HAS_DIRECTIONAL",   "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
     sd_draw draw{};
     draw.to_camera[0] = draw.to_camera[5] = draw.to_camera[10] = 1;
     draw.normal[0] = draw.normal[4] = draw.normal[8] = 1;
@@ -157,7 +178,7 @@ void addVertex(World& world, double x, double y, double z, Random& random) {
 void addTriangle(World& world, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     for (std::uint32_t i : {a, b, c})
         world.index.push_back(i);
-    world.triangleMaterial.push_back(static_cast<std::uint32_t>(1 + world.triangleMaterial.size() % 8));
+    world.triangleMaterial.push_back(static_cast<std::uint32_t>(1 + world.triangleMaterial.size() % 9));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace spectrad {
 
-/// `triangles` of all sizes, eight materials (Lambert, coated, mirror-coated, glowing, rough, metal, two
+/// `triangles` of all sizes, nine materials (Lambert, coated, mirror-coated, glowing, rough, metal, three
 /// textured), lights of every type in two groups.
 [[nodiscard]] Plan randomPlan(unsigned seed, int samples, bool orthographic, int triangles, int height);
 

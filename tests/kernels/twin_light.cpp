@@ -1,4 +1,5 @@
 #include "kernels/twin.h"
+#include "kernels/twin_texels.h"
 
 #include <algorithm>
 #include <array>
@@ -40,6 +41,7 @@ struct SurfaceOf {
     VectorOf<Real> position, normal, view;
     Real cosView;
     Real u, v;
+    Real ux, vx, uy, vy;  // change from pixel to pixel
 };
 
 template <typename Real>
@@ -70,8 +72,8 @@ SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd
     b0 = std::fmax(b0 * turn, Real(0.0)), b1 = std::fmax(b1 * turn, Real(0.0)),
     b2 = std::fmax(b2 * turn, Real(0.0));
     const Real sum = b0 + b1 + b2;
+    const Real inv = Real(1.0) / (sum > 0 ? sum : Real(1.0));
     if (sum > 0) {
-        const Real inv = Real(1.0) / sum;
         b0 *= inv, b1 *= inv, b2 *= inv;
     } else {
         b0 = b1 = b2 = Real(1.0) / 3;
@@ -79,9 +81,10 @@ SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd
     SurfaceOf<Real> s{};
     s.position = {mixed(b0, p[0][0], b1, p[1][0], b2, p[2][0]), mixed(b0, p[0][1], b1, p[1][1], b2, p[2][1]),
                   mixed(b0, p[0][2], b1, p[1][2], b2, p[2][2])};
-    VectorOf<Real> normal{mixed(b0, n[0][0], b1, n[1][0], b2, n[2][0]),
-                          mixed(b0, n[0][1], b1, n[1][1], b2, n[2][1]),
-                          mixed(b0, n[0][2], b1, n[1][2], b2, n[2][2])};
+    const auto fromFirst = [&](size_t i) {
+        return std::fma(b2, n[2][i] - n[0][i], std::fma(b1, n[1][i] - n[0][i], n[0][i]));
+    };
+    VectorOf<Real> normal{fromFirst(0), fromFirst(1), fromFirst(2)};
     s.view = frame.orthographic ? VectorOf<Real>{0, 0, 1}
                                 : unit<Real>({-s.position.x, -s.position.y, -s.position.z});
     const VectorOf<Real> e1{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]},
@@ -95,6 +98,22 @@ SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd
         const auto t = corners(world.uv, 2);
         s.u = mixed(b0, t[0][0], b1, t[1][0], b2, t[2][0]);
         s.v = mixed(b0, t[0][1], b1, t[1][1], b2, t[2][1]);
+        // Along the screen's rows and columns: slopes of the undivided barycentrics and of their sum.
+        std::array<Real, 3> alongX{0, e2.y, -e1.y}, alongY{0, -e2.x, e1.x};
+        if (!frame.orthographic) {
+            const auto& o = p[0];
+            alongX = {std::fma(e1.z, e2.y, -(e2.z * e1.y)), std::fma(e2.z, o[1], -(o[2] * e2.y)),
+                      std::fma(o[2], e1.y, -(e1.z * o[1]))};
+            alongY = {std::fma(e1.x, e2.z, -(e2.x * e1.z)), std::fma(o[2], e2.x, -(e2.z * o[0])),
+                      std::fma(e1.z, o[0], -(o[2] * e1.x))};
+        }
+        const auto change = [&](const std::array<Real, 3>& slope, Real value, size_t axis) {
+            const Real own =
+                std::fma(slope[2], t[2][axis] - t[0][axis], slope[1] * (t[1][axis] - t[0][axis]));
+            return std::fma(-(value - t[0][axis]), slope[0], own) * (inv * (256 * frame.slope_per_subpixel));
+        };
+        s.ux = change(alongX, s.u, 0), s.vx = change(alongX, s.v, 1);
+        s.uy = change(alongY, s.u, 0), s.vy = change(alongY, s.v, 1);
     }
     return s;
 }
@@ -139,28 +158,6 @@ Real arriving(const sd_light& light, VectorOf<Real> position, VectorOf<Real>& to
     return square == Real(0.0) ? Real(0.0) : strength;
 }
 
-/// One band of a texture at the surface's coordinates.
-template <typename Real>
-Real texel(const World& world, const sd_texture& t, const SurfaceOf<Real>& s, int band) {
-    const Real x = std::clamp(s.u, Real(0.0), Real(1.0)) * static_cast<Real>(t.width),
-               y = (Real(1.0) - std::clamp(s.v, Real(0.0), Real(1.0))) * static_cast<Real>(t.height);
-    const auto at = [&](int column, int row) -> Real {
-        return world
-            .texels[t.first +
-                    (static_cast<size_t>(std::clamp(row, 0, t.height - 1)) * static_cast<size_t>(t.width) +
-                     static_cast<size_t>(std::clamp(column, 0, t.width - 1))) *
-                        static_cast<size_t>(t.bands) +
-                    static_cast<size_t>(band)];
-    };
-    if (t.filter == SD_NEAREST) return at(static_cast<int>(x), static_cast<int>(y));
-    const Real left = std::floor(x - Real(0.5)), top = std::floor(y - Real(0.5)),
-               right = (x - Real(0.5)) - left, down = (y - Real(0.5)) - top;
-    const int column = static_cast<int>(left), row = static_cast<int>(top);
-    const Real a = std::fma(right, at(column + 1, row) - at(column, row), at(column, row));
-    const Real b = std::fma(right, at(column + 1, row + 1) - at(column, row + 1), at(column, row + 1));
-    return std::fma(down, b - a, a);
-}
-
 /// Calls add(call, term, g) for everything that lobes and lights add to one sample; `call` orders the
 /// additions.
 template <typename Real>
@@ -172,15 +169,43 @@ void shade(const Plan& plan, const sd_material& material, const SurfaceOf<Real>&
     for (std::uint32_t l = 0; l < material.lobes; ++l) {
         const sd_lobe& lobe = world.lobes[material.first_lobe + l];
         constexpr size_t callsALight = 64;
-        const auto paint = [&](size_t base, std::uint32_t term, Real g, std::uint32_t stride) {
-            if (lobe.texture == 0) {
-                add(base, term, g);
-                return;
-            }
+        const auto samples = static_cast<Real>(plan.samples);
+        /// Terms of a painted lobe from `term` on; returns how many blocks of light groups they are.
+        const auto painted = [&](size_t base, std::uint32_t term, Real g, int steps, bool squared,
+                                 Real inside, std::uint32_t stride) {
             const sd_texture& t = world.textures[lobe.texture - 1];
-            for (int band = 0; band < t.bands; ++band)
-                add(base + static_cast<size_t>(band), term + static_cast<std::uint32_t>(band) * stride,
-                    g * texel(world, t, s, band));
+            std::uint32_t block = 0;
+            for (int band = 0; band < t.bands; ++band) {
+                const Real here = texel(world, t, s, samples, band),
+                           next = band + 1 < t.bands ? texel(world, t, s, samples, band + 1) : here;
+                for (int k = 0; k < (band + 1 < t.bands ? steps : 1); ++k, ++block) {
+                    const Real rho =
+                        k == 0 ? here
+                               : std::fma(static_cast<Real>(k) / static_cast<Real>(steps), next - here, here);
+                    Real left = rho;
+                    if (inside != 0) left = rho * (Real(1.0) - inside) / std::fma(-rho, inside, Real(1.0));
+                    if (inside != 0 && squared) left *= rho;
+                    add(base + block, term + block * stride, g * left);
+                }
+            }
+            return block;
+        };
+        const auto paint = [&](size_t base, std::uint32_t term, Real g, std::uint32_t stride) {
+            if (lobe.strength != 0) g = g * texel(world, world.textures[lobe.strength - 1], s, samples, 0);
+            if (lobe.texture == 0)
+                add(base, term, g);
+            else
+                painted(base, term, g, lobe.steps, false, lobe.inside, stride);
+        };
+        const auto paintRough = [&](size_t base, std::uint32_t term, Real single, Real multiple) {
+            if (lobe.texture == 0) {
+                add(base, term, single);
+                add(base + 1, term + groups, multiple);
+            } else {
+                const std::uint32_t blocks = painted(base, term, single, 1, false, 0, groups);
+                painted(base + blocks, term + blocks * groups, multiple, lobe.steps, true, lobe.inside,
+                        groups);
+            }
         };
         if (lobe.type == SD_LOBE_EMISSION) {
             paint(call, lobe.term, Real(1.0), 1);
@@ -198,10 +223,8 @@ void shade(const Plan& plan, const sd_material& material, const SurfaceOf<Real>&
                 if (light.type == SD_LIGHT_SURROUNDINGS && !(lobe.type == SD_LOBE_FACETS && lobe.alpha == 0))
                     continue;
                 if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, light.scale, groups);
-                if (lobe.type == SD_LOBE_ROUGH) {
-                    add(base, term, light.scale * (Real(1.0) - first));
-                    add(base + 1, term + groups, light.scale * first);
-                }
+                if (lobe.type == SD_LOBE_ROUGH)
+                    paintRough(base, term, light.scale * (Real(1.0) - first), light.scale * first);
                 if (lobe.type == SD_LOBE_COATED)
                     paint(base, term, light.scale * first * lobe.mean_through, groups);
                 if (lobe.type == SD_LOBE_FACETS) {
@@ -226,9 +249,8 @@ void shade(const Plan& plan, const sd_material& material, const SurfaceOf<Real>&
                 const Real beyond = std::fma(-cosLight, s.cosView, dot(toLight, s.view));
                 const Real divisor = beyond > 0 ? std::fmax(cosLight, s.cosView) : Real(1.0);
                 const Real single = lobe.mean_through * std::fma(lobe.alpha, beyond / divisor, Real(1.0));
-                add(base, term, irradiance * single);
-                add(base + 1, term + groups,
-                    irradiance * (first * lookUp(table, cellOf(cosLight)) * lobe.multiple));
+                paintRough(base, term, irradiance * single,
+                           irradiance * (first * lookUp(table, cellOf(cosLight)) * lobe.multiple));
             }
             if (lobe.type == SD_LOBE_FACETS && lobe.alpha != 0) {
                 const VectorOf<Real> h =
@@ -256,14 +278,6 @@ void shade(const Plan& plan, const sd_material& material, const SurfaceOf<Real>&
             }
         }
     }
-}
-
-bool isTextured(const World& world, const sd_material& material, std::uint32_t term) {
-    bool textured = false;
-    for (std::uint32_t l = 0; l < material.lobes; ++l)
-        if (world.lobes[material.first_lobe + l].term <= term)
-            textured = world.lobes[material.first_lobe + l].texture != 0;
-    return textured;
 }
 
 template <typename Real>
@@ -339,13 +353,7 @@ BlockOf<Real> light(const Plan& plan, const Vertices& vertices, const sd_frame& 
                     add);
             }
             for (const auto& [call, entry] : adds) {
-                Real& sum = block.g[(offset[m] + entry.first) * SD_BLOCK + x];
-                if (!isTextured(world, material, entry.first)) {
-                    sum += pairwise(entry.second, 0, group);
-                    continue;
-                }
-                for (Real g : entry.second)
-                    if (g != 0) sum += g;  // a texture's bands are added lane by lane
+                block.g[(offset[m] + entry.first) * SD_BLOCK + x] += pairwise(entry.second, 0, group);
             }
         }
     }

@@ -148,7 +148,7 @@ constexpr Refused contents[] = {
     {R"(<spectrum name="a" relative="yes" value="constant:1"/>)",
      R"(scene.xml:2:1: relative="yes" in <spectrum>: unknown value (allowed: true, false))"},
     {R"(<material name="m"><diffuse/></material>)",
-     R"(scene.xml:2:20: <diffuse> needs the attribute 'reflectance' or 'texture')"},
+     R"(scene.xml:2:20: <diffuse> needs the attribute 'reflectance', 'texture' or 'select')"},
     {R"(<material name="m"><diffuse reflectance="constant:1" texture="a.exr"/></material>)",
      R"(scene.xml:2:20: <diffuse> has both 'reflectance' and 'texture' (one is allowed))"},
     {R"(<material name="m"><diffuse reflectance="constant:1" roughness="91"/></material>)",

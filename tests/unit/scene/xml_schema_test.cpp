@@ -112,7 +112,11 @@ TEST_CASE("the format's own example is valid, and so is every form of value that
     <conductor ior="metals/Au" roughness="0.1" fresnel="exact"/>
     <specular reflectance="constant:0.9" roughness="0.1"/>
     <gloss ior="1.5" roughness="0.3"/>
-    <diffuse texture="pass:NAME" roughness="20"/>
+    <diffuse texture="pass:NAME" roughness="20" filter="mip" wrap="repeat" offset="0.5 -1" scale="2 3" rotate="90"/>
+  </material>
+  <material name="map">
+    <diffuse select="map.png" values="mix" scale="2"><choose value="0" reflectance="a"/><choose value="255" reflectance="b"/></diffuse>
+    <fluorescence excitation="a" emission="b" mask="ink.png" filter="nearest"/>
   </material>
   <node name="cow" translate="0 -.5 -2e1" rotate="0 1 0 90" scale="2">
     <mesh file="cow.obj" material="ink" normals="smooth"/>
@@ -151,6 +155,11 @@ TEST_CASE("malformed scenes are invalid") {
              "<material><diffuse reflectance=\"a\"/></material>",
              "<material name=\"m\"><diffuse/></material>",
              "<material name=\"m\"><diffuse reflectance=\"a\" texture=\"b\"/></material>",
+             "<material name=\"m\"><diffuse select=\"a.png\"/></material>",
+             "<material name=\"m\"><diffuse reflectance=\"a\" wrap=\"repeat\"/></material>",
+             "<material name=\"m\"><diffuse reflectance=\"constant:1\"><choose value=\"0\" "
+             "reflectance=\"constant:1\"/></diffuse></material>",
+             "<material name=\"m\"><diffuse texture=\"a.png\" filter=\"cubic\"/></material>",
              "<material name=\"m\"><gloss ior=\"1.5\" roughness=\"2\"/></material>",
              "<material name=\"m\"><fluorescence excitation=\"a\"/></material>",
              "<light type=\"point\" spectrum=\"a\" intensity=\"800\"/>",

@@ -1,0 +1,20 @@
+// Textures as the kernels read them: placed, wrapped, with their pyramids.
+#pragma once
+
+#include "render/texture.h"
+#include "render/world.h"
+
+namespace spectrad {
+
+/// An image of half the size (at least one texel a side): each texel the mean of the area it covers.
+[[nodiscard]] Texels halved(const Texels& image);
+
+/// Appends an image to the world's textures, with all smaller levels where the use is filtered by them;
+/// returns 1
+/// + its number.
+[[nodiscard]] std::uint32_t addTexels(World& world, Texels image, const TextureUse& use);
+
+/// Kernel switches that the world's textures need.
+[[nodiscard]] std::vector<std::string> textureDefines(const World& world);
+
+}  // namespace spectrad
