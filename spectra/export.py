@@ -141,6 +141,50 @@ def observers(out):
         out.distribution(f"observers/{name}", colour.SDS_LEFS[key], f"{key}: luminous efficiency", "sensitivity", "V", CVRL)
 
 
+# Cone fundamentals to the tristimulus values of CIE 170-2:2015, 2 degrees.
+LMS_TO_XYZ = ((1.94735469, -1.41445123, 0.36476327), (0.68990272, 0.34832189, 0), (0, 0, 1.93485343))
+
+
+def deficient_observers(out):
+    """Eyes without a cone, or with one shifted, as the X Y Z that a normal eye would need to see what they see.
+
+    Dichromats (after F. Vienot, H. Brettel, J. D. Mollon, Color Research & Application 24, 243 (1999)): the missing cone's
+    signal is the combination of the other two that is right for equal-energy white and for an anchor of the spectrum, 475 nm
+    (no L, no M) or 485 nm (no S): one plane, where Brettel et al. 1997 bend it at the white.
+    Anomalous trichromats (G. M. Machado, M. M. Oliveira, L. A. F. Fernandes, IEEE TVCG 15, 1291 (2009)): the shifted pigment's
+    cone is a mixture of L and M in proportion to the shift, 20 nm being the whole distance.
+    """
+    cones = colour.MSDS_CMFS["Stockman & Sharpe 2 Degree Cone Fundamentals"]
+    nm, lms = cones.wavelengths, cones.values.T
+    rows = nm.astype(int).tolist()
+
+    def write(name, title, model, changed):
+        xyz = [[sum(m * c for m, c in zip(row, column)) for column in zip(*changed)] for row in LMS_TO_XYZ]
+        out.write(f"observers/{name}", f"{title}: what a normal eye sees of the same", "sensitivity", ["X", "Y", "Z"], nm, xyz,
+                  f"{model}; {STOCKMAN}, CIE 170-2:2015; {CVRL}; {COLOUR}", BSD, relative=True)
+
+    for name, missing, others, anchor in (("protanope", 0, (1, 2), 475), ("deuteranope", 1, (0, 2), 475),
+                                          ("tritanope", 2, (0, 1), 485)):
+        at = rows.index(anchor)
+        (a, b), (c, d) = [[float(lms[k].sum()), float(lms[k][at])] for k in others]
+        white, spectral = float(lms[missing].sum()), float(lms[missing][at])
+        determinant = a * d - b * c
+        first, second = (white * d - spectral * c) / determinant, (a * spectral - b * white) / determinant
+        changed = [curve.tolist() for curve in lms]
+        changed[missing] = [first * p + second * q for p, q in zip(changed[others[0]], changed[others[1]])]
+        write(name, name.capitalize(), "one plane after Vienot, Brettel, Mollon (1999)", changed)
+
+    shift = 10
+    area = [float(curve.sum()) for curve in lms]
+    for name, anomalous, normal, ratio in (("protanomalous-10", 0, 1, 0.96 * area[0] / area[1]),
+                                           ("deuteranomalous-10", 1, 0, area[1] / area[0] / 0.96)):
+        alpha = (20 - shift) / 20
+        changed = [curve.tolist() for curve in lms]
+        changed[anomalous] = [alpha * own + (1 - alpha) * ratio * other for own, other in zip(lms[anomalous], lms[normal])]
+        write(name, f"{name.split('-')[0].capitalize()} eye, pigment shifted by {shift} nm",
+              "Machado, Oliveira, Fernandes (2009)", changed)
+
+
 def illuminants(out):
     for key, sd in colour.SDS_ILLUMINANTS.items():
         if key == "ISO 7589 Sensitometric Printer":
@@ -229,7 +273,7 @@ def formula_spectra(out):
 
 def main():
     out = Writer(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).resolve().parent)
-    for export in (observers, illuminants, lamps, cameras_and_displays, charts, metals, filters, formula_spectra):
+    for export in (observers, deficient_observers, illuminants, lamps, cameras_and_displays, charts, metals, filters, formula_spectra):
         export(out)
     print(f"{len(out.names)} files in {out.folder}", file=sys.stderr)
 

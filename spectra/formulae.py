@@ -69,6 +69,31 @@ MERCURY = {365.02: 0.05, 404.66: 0.012, 435.83: 0.006, 546.07: 0.0004}
 SLIT = 1.0
 
 
+# Quantum efficiency of a front-illuminated CCD: (height, rising edge, falling edge); the polysilicon gates take the blue, silicon's
+# transparency the infrared. Relative: near its maximum 1.
+CCD = (1.34, (460, 49), (702, 92))
+
+# A reversal film of the E-6 kind. Layers: linear sensitivity per energy, 10^(slope (nm - 550)) between a rising and a falling
+# edge, peak 1: (slope per nm, rising, falling). Dyes: spectral density at peak 1, a log-normal band (height, peak, width, skew) and
+# a Gaussian of its secondary absorption (height, peak, width). Base: support, fog and stain.
+FILM_LAYERS = {
+    "R": (0.019, (579, 2.5), (654, 4.1)),
+    "G": (-0.008, (540, 12.8), (585, 2.9)),
+    "B": (-0.004, (408, 7.3), (475, 5.0)),
+}
+FILM_DYES = {
+    "C": ((1.0, 660, 137, 0.9), (0.29, 320, 190)),
+    "M": ((0.975, 546, 89, 1.1), (0.175, 447, 124)),
+    "Y": ((1.0, 447, 97, 1.05), (0.0, 447, 97)),
+}
+FILM_BASE = (0.05, 0.10, (395, 8))  # density everywhere; what is added at short wavelengths, and the edge where it ends
+
+
+def gaussian(nm, centre, width):
+    """Peak 1, full width at half maximum `width`."""
+    return math.exp(-4 * math.log(2) * ((nm - centre) / width) ** 2)
+
+
 def fluorophore(title, excitation, emission):
     nm = list(range(220, 851))
     columns = []
@@ -92,13 +117,75 @@ def separation_filter(title, peak, rising, falling):
     }
 
 
+def transmittance(name, nm):
+    _, peak, rising, falling = FILTERS[name]
+    return peak * edge(nm, *rising) * (1 - edge(nm, *falling) if falling else 1)
+
+
+def ccd(nm):
+    height, rising, falling = CCD
+    return height * edge(nm, *rising) * (1 - edge(nm, *falling))
+
+
+def sensor():
+    nm = list(range(300, 1101))
+    return {
+        "title": "Front-illuminated CCD, quantum efficiency", "quantity": "sensitivity", "channels": ["qe"], "nm": nm,
+        "columns": [[rounded(ccd(x)) for x in nm]], "relative": True, "source": "logistic edges, formulae.py",
+        "note": "electrons per photon, relative; as a factor of a detector write qe:sensors/ccd",
+    }
+
+
+def separation_camera():
+    """The camera of the paper's figure 3: a monochrome CCD behind red, green and blue separation filters in turn. Per energy, so
+    the quantum efficiency counts times the wavelength."""
+    nm = list(range(360, 801))
+    channels = {"R": "red", "G": "green", "B": "blue"}
+    columns = [[ccd(x) * x / 550 * transmittance("ir-cut", x) * transmittance(f, x) for x in nm] for f in channels.values()]
+    peak = max(max(column) for column in columns)
+    return {
+        "title": "Camera of the DCS 200's kind: CCD behind separation filters", "quantity": "sensitivity",
+        "channels": list(channels), "nm": nm, "columns": [[rounded(v / peak) for v in column] for column in columns],
+        "relative": True, "source": "product of the formulae of sensors/ccd, filters/ir-cut and filters/red, green, blue",
+        "note": "energy units, largest channel 1",
+    }
+
+
+def film_layers():
+    nm = list(range(360, 731))
+    columns = []
+    for slope, rising, falling in FILM_LAYERS.values():
+        values = [10 ** (slope * (x - 550)) * edge(x, *rising) * (1 - edge(x, *falling)) for x in nm]
+        columns.append([rounded(v / max(values)) for v in values])
+    return {
+        "title": "Generic reversal film, sensitivities of its layers", "quantity": "sensitivity",
+        "channels": list(FILM_LAYERS), "nm": nm, "columns": columns, "relative": True,
+        "source": "logistic edges, formulae.py", "note": "per energy, each layer's peak 1",
+    }
+
+
+def film_dyes():
+    nm = list(range(360, 801))
+    columns = []
+    for (height, peak, width, skew), second in FILM_DYES.values():
+        values = [height * log_normal(x, peak, width, skew) + second[0] * gaussian(x, *second[1:]) for x in nm]
+        columns.append([rounded(v) for v in values])
+    density, more, fall = FILM_BASE
+    columns.append([rounded(density + more * (1 - edge(x, *fall))) for x in nm])
+    return {
+        "title": "Generic reversal film, densities of its dyes and base", "quantity": "density",
+        "channels": [*FILM_DYES, "base"], "nm": nm, "columns": columns, "source": "log-normal bands, formulae.py",
+        "note": "diffuse spectral density of one unit of each dye; base: support and fog",
+    }
+
+
 def black_light():
     centre, width = PHOSPHOR
     area = width * math.sqrt(math.pi / (4 * math.log(2)))
     corners = {round(line + d, 2) for line in MERCURY for d in (-SLIT, 0, SLIT)}
     nm = sorted(set(range(320, 601)) | corners)
     values = [
-        math.exp(-4 * math.log(2) * ((x - centre) / width) ** 2)
+        gaussian(x, centre, width)
         + sum(share * area / SLIT * triangle(x, line, SLIT) for line, share in MERCURY.items())
         for x in nm
     ]
@@ -114,4 +201,8 @@ def spectra():
     result = {f"fluorophores/{name}": fluorophore(*parameters) for name, parameters in FLUOROPHORES.items()}
     result |= {f"filters/{name}": separation_filter(*parameters) for name, parameters in FILTERS.items()}
     result["lamps/uv-365"] = black_light()
+    result["sensors/ccd"] = sensor()
+    result["cameras/dcs200-like"] = separation_camera()
+    result["films/generic-reversal-layers"] = film_layers()
+    result["films/generic-reversal-dyes"] = film_dyes()
     return result

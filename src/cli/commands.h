@@ -19,6 +19,7 @@ void addObserve(CLI::App& app, Action& action);
 void addMeasure(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 void addStudy(CLI::App& app, Action& action);
+void addMetamer(CLI::App& app, Action& action);
 void addInfo(CLI::App& app, Action& action);
 void addDevices(CLI::App& app, Action& action);
 void addCompletion(CLI::App& app, Action& action);

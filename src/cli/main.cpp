@@ -89,6 +89,7 @@ ExitCode runProgram(const std::vector<std::string>& arguments) {
     addMeasure(app, action);
     addCompare(app, action);
     addStudy(app, action);
+    addMetamer(app, action);
     addInfo(app, action);
     addDevices(app, action);
     addCompletion(app, action);

@@ -30,7 +30,9 @@ struct Reading {
     size_t pixels = 0;
     std::vector<double> bands;
     Triple xyz{};
-    std::vector<double> channels;     ///< of a detector that is no observer; else empty
+    std::vector<double> channels;  ///< of a detector that is no observer; else empty
+    std::optional<Triple> rendered,
+        renderedLab;                  ///< what such a detector's picture shows, against its own white
     std::optional<double> luminance;  ///< cd/m²
     std::optional<std::array<double, 2>> xy, uv;
     std::optional<Cct> cct;
@@ -57,7 +59,9 @@ Reading averaged(const Cube& cube, const Place& place) {
     if (place.x >= info.width || place.y >= info.height)
         throw InputError(fmt::format("the place {},{} lies outside the image (allowed: 0,0 to {},{})",
                                      place.x, place.y, info.width - 1, info.height - 1));
-    Reading reading{place, 0, std::vector<double>(info.wavelengths.size()), {}, {}, {}, {}, {}, {}, {}};
+    Reading reading;
+    reading.place = place;
+    reading.bands.resize(info.wavelengths.size());
     const auto reach =
         static_cast<int>(std::min(place.radius, static_cast<double>(std::max(info.width, info.height))));
     for (int y = std::max(0, place.y - reach); y <= std::min(info.height - 1, place.y + reach); ++y)
@@ -113,10 +117,25 @@ std::vector<Reading> readAll(const MeasureArguments& arguments, const Cube& cube
     std::optional<White> white;
     if (!arguments.observer.white.empty()) white = labWhite(bench.observer(), cube, notes);
 
+    double metered = 1;
+    std::optional<White> renderedWhite;
+    if (!bench.named.detector().tristimulus) {
+        ChannelImage channels = bench.named.channels(cube);
+        metered = bench.named.metered(channels);
+        const ChannelImage xyz = bench.named.xyz(std::move(channels));
+        renderedWhite = withLuminance(bench.named.white(xyz), brightest(xyz));
+    }
+
     for (Reading& reading : readings) {
         const Triple standard = tripleOf(bench.standard.channels(reading.bands));
         reading.xyz = tripleOf(bench.observer().channels(reading.bands));
-        if (!bench.named.detector().tristimulus) reading.channels = bench.named.channels(reading.bands);
+        if (renderedWhite) {
+            reading.channels = bench.named.channels(reading.bands);
+            reading.rendered = bench.named.xyz(reading.channels, metered);
+            const Triple& against = renderedWhite->xyz;
+            if (*std::min_element(against.begin(), against.end()) > 0)
+                reading.renderedLab = lab(*reading.rendered, against);
+        }
         if (cube.info.kind == CubeKind::radiance) reading.luminance = standard[1];
         reading.xy = chromaticity(reading.xyz);
         reading.uv = uvPrime(reading.xyz);
@@ -147,6 +166,10 @@ Json described(const Reading& reading, const CubeInfo& info, const std::vector<s
              {"duv", reading.cct ? Json(reading.cct->duv) : Json()}};
     for (size_t i = 0; i < reading.channels.size(); ++i)
         out["channels"][channelNames[i]] = reading.channels[i];
+    if (reading.rendered) {
+        out["rendered"]["XYZ"] = *reading.rendered;
+        out["rendered"]["Lab"] = orNull(reading.renderedLab);
+    }
     if (reading.lab) out["Lab"] = *reading.lab;
     return out;
 }
@@ -170,6 +193,8 @@ std::string colorimetry(const Reading& reading, const std::vector<std::string>& 
     if (reading.lab) out += "; Lab" + numbers(*reading.lab);
     for (size_t i = 0; i < reading.channels.size(); ++i)
         out += "; " + channelNames[i] + " " + rounded(reading.channels[i], 6);
+    if (reading.rendered) out += "; rendered XYZ" + numbers(*reading.rendered);
+    if (reading.renderedLab) out += "; rendered Lab" + numbers(*reading.renderedLab);
     return out + "\n";
 }
 

@@ -1,8 +1,12 @@
 #include "cli/observation.h"
 
 #include "base/text.h"
+#include "colour/develop.h"
+#include "scene/load.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,6 +49,16 @@ std::optional<Triple> parseTriple(const std::string& text) {
     return triple[1] > 0 ? std::optional(triple) : std::nullopt;
 }
 
+/// The pixel that "at:X,Y" names.
+White placed(const std::string& wanted, const ChannelImage& image) {
+    const std::vector<std::string_view> place = split(std::string_view(wanted).substr(3), ',');
+    const auto x = parseInteger(place[0]), y = place.size() == 2 ? parseInteger(place[1]) : std::nullopt;
+    if (!x || !y) throw UsageError("--white: '" + wanted + "' is not at:X,Y in pixels, (0,0) top left");
+    constexpr long long beyond = 1 << 30;  // outside every image, and inside int
+    return whiteAt(image, static_cast<int>(std::clamp(*x, -1LL, beyond)),
+                   static_cast<int>(std::clamp(*y, -1LL, beyond)));
+}
+
 bool sameChromaticity(const Triple& a, const Triple& b) {
     constexpr double tolerance = 1e-4;
     const auto xyA = chromaticity(a), xyB = chromaticity(b);
@@ -55,11 +69,14 @@ bool sameChromaticity(const Triple& a, const Triple& b) {
 
 void addObserverOptions(CLI::App& command, ObserverArguments& arguments) {
     command
-        .add_option("--observer", arguments.observer,
-                    "an observer or camera of the library, or a file of sensitivities over nm; default: "
-                    "cie1931-2 (others: "
-                    "cie1964-10, cie2015-2, cie2015-10, stockman-sharpe-2, stockman-sharpe-10, nikon-5100, "
-                    "sigma-sd-merrill)")
+        .add_option(
+            "--observer", arguments.observer,
+            "who looks: an observer or camera of the library, a file of sensitivities over nm, a film "
+            "(generic-reversal, or x.film), a detector of a scene (SCENE.xml#NAME), or a product "
+            "'qe:sensors/ccd * filters/ir-cut * (R = filters/red, G = filters/green)'; default: cie1931-2 "
+            "(others: cie1964-10, cie2015-2, cie2015-10, stockman-sharpe-2, stockman-sharpe-10, "
+            "cie1951-scotopic, protanope, deuteranope, tritanope, protanomalous-10, deuteranomalous-10, "
+            "nikon-5100, sigma-sd-merrill, dcs200-like)")
         ->type_name("NAME|FILE");
     command
         .add_option("--white", arguments.white,
@@ -69,6 +86,35 @@ void addObserverOptions(CLI::App& command, ObserverArguments& arguments) {
                     "seen under that "
                     "light (default: D65)")
         ->type_name("LIGHT|XYZ|at:X,Y");
+}
+
+bool namesFilm(const std::string& observer) {
+    return isFilm(observer, Library::open());
+}
+
+/// SCENE.xml#NAME is a <detector> of that scene, a film its layers; the rest is a spectrum.
+Detector Observation::wantedDetector(const std::string& observer) {
+    if (isFilm(observer, library_)) {
+        film_.emplace(filmFor(observer, resolver_, library_), standard_);
+        return film_->film().layers;
+    }
+    const size_t hash = observer.find(".xml#");
+    if (hash == std::string::npos) return detectorFor(observer, resolver_, {});
+    const std::string file = observer.substr(0, hash + 4), name = observer.substr(hash + 5);
+    Notes unsaid;  // that a scene has no light is no concern of its detectors
+    const Scene scene = loadScene(file, library_, {}, unsaid);
+    std::vector<std::string> known;
+    for (const DetectorUse& use : scene.detectors) {
+        if (use.name == name) {
+            Detector detector = detectorFrom(use.sensitivity);
+            detector.name = observer;
+            return detector;
+        }
+        known.push_back(use.name);
+    }
+    throw InputError(SourceLocation{file},
+                     fmt::format("has no <detector name=\"{}\">{} (there are: {})", name,
+                                 didYouMean(name, known), fmt::join(known, ", ")));
 }
 
 static bool needsLight(const CubeInfo& info) {
@@ -82,7 +128,8 @@ Observation::Observation(const ObserverArguments& arguments, const CubeInfo& inf
       library_(Library::open()),
       resolver_(library_, ".", false, notes),
       standard_(standardObserver(library_)),
-      detector_(detectorFor(arguments.observer, resolver_, {})) {
+      filmStops_(arguments.filmStops),
+      detector_(wantedDetector(arguments.observer)) {
     if (!detector_.tristimulus) toXyz_ = towardsXyz(detector_, standard_);
     if (!needsLight(info)) {
         weights_ = weightsOn(info.wavelengths, detector_);
@@ -117,7 +164,34 @@ std::vector<double> Observation::channels(const std::vector<double>& bands) cons
     return out;
 }
 
+double Observation::metered(const ChannelImage& channels) const {
+    if (!film_) return 1;
+    if (isPlace(wanted_)) return film_->metered(placed(wanted_, channels).xyz[1]);
+    const std::optional<Triple> stated = parseTriple(wanted_);
+    if (stated) return (*stated)[1];
+    std::vector<double> green = channels.plane[1];
+    const double light = green.empty() ? 0 : film_->metered(quantile(green, 0.99));
+    return light > 0 ? light : 1;
+}
+
+Triple Observation::xyz(const std::vector<double>& channels, double metered) const {
+    if (detector_.tristimulus) return {channels[0], channels[1], channels[2]};
+    if (!film_) return toXyz(toXyz_, channels);
+    const Triple exposures = film_->exposures(channels, metered, filmStops_);
+    return diagonal({diffuserY, diffuserY, diffuserY}) * film_->xyz(film_->densities(exposures));
+}
+
 ChannelImage Observation::xyz(ChannelImage channels) const {
+    if (film_) {
+        const double white = metered(channels);
+        for (size_t i = 0; i < channels.pixels(); ++i) {
+            const Triple seen = xyz(
+                std::vector<double>{channels.plane[0][i], channels.plane[1][i], channels.plane[2][i]}, white);
+            for (size_t k = 0; k < 3; ++k)
+                channels.plane[k][i] = seen[k];
+        }
+        return channels;
+    }
     return detector_.tristimulus ? std::move(channels) : toXyz(toXyz_, channels);
 }
 
@@ -147,14 +221,12 @@ White Observation::statedWhite() const {
 }
 
 White Observation::white(const ChannelImage& image) const {
-    if (isPlace(wanted_)) {
-        const std::vector<std::string_view> place = split(std::string_view(wanted_).substr(3), ',');
-        const auto x = parseInteger(place[0]), y = place.size() == 2 ? parseInteger(place[1]) : std::nullopt;
-        if (!x || !y) throw UsageError("--white: '" + wanted_ + "' is not at:X,Y in pixels, (0,0) top left");
-        constexpr long long beyond = 1 << 30;  // outside every image, and inside int
-        return whiteAt(image, static_cast<int>(std::clamp(*x, -1LL, beyond)),
-                       static_cast<int>(std::clamp(*y, -1LL, beyond)));
+    if (film_) {  // who looks at a projection is adapted to its lamp, and takes the clearest film for white
+        const CharacteristicCurve* curves = film_->film().curves.data();
+        const double clear = film_->xyz({curves[0].dmin, curves[1].dmin, curves[2].dmin})[1];
+        return withLuminance({film_->film().projectorName, film_->lamp(), false}, diffuserY * clear);
     }
+    if (isPlace(wanted_)) return placed(wanted_, image);
     if (wanted_.empty() && !light_) return statedWhite();
     White white =
         whiteFor(light_ && !isNumbers(wanted_) ? light_->text : wanted_, detector_, toXyz_, resolver_, {});

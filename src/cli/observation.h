@@ -1,6 +1,7 @@
 // A cube seen by a detector: what --observer and --white mean, for observe, measure and compare alike.
 #pragma once
 
+#include "camera/film.h"
 #include "colour/colour.h"
 #include "colour/detector.h"
 #include "colour/observe.h"
@@ -27,11 +28,17 @@ inline constexpr const char* whiteXyz = "whiteXYZ";  ///< its X,Y,Z with Y = 1, 
 
 struct ObserverArguments {
     std::string observer = "cie1931-2", white;
+    double filmStops = 0;  ///< of exposure more, for a film
 };
 void addObserverOptions(CLI::App& command, ObserverArguments& arguments);
 
-/// A detector in front of a cube. Reflectances and transmittances have no colour by themselves: they are seen
-/// as if lit by the light that --white names (else D65), with the perfect diffuser (or no filter) at Y = 100.
+/// Whether the observer's name means a film.
+[[nodiscard]] bool namesFilm(const std::string& observer);
+
+/// A detector in front of a cube. A film's channels are the exposures of its layers; what it shows is its
+/// transparency in a projector, the lamp without film at Y = 100. Reflectances and transmittances have no
+/// colour by themselves: they are seen as if lit by the light that --white names (else D65), with the perfect
+/// diffuser (or no filter) at Y = 100.
 class Observation {
   public:
     /// Throws InputError for an observer or a light that cannot be.
@@ -45,14 +52,20 @@ class Observation {
     [[nodiscard]] ChannelImage channels(const Cube& cube) const;
     /// This detector's channels of one spectrum, a value for each band.
     [[nodiscard]] std::vector<double> channels(const std::vector<double>& bands) const;
-    /// The same as XYZ: themselves for an observer, the nearest there are for a camera or cones.
+    /// The same as XYZ: themselves for an observer, the nearest there are for a camera or cones, the
+    /// projected picture for a film.
     [[nodiscard]] ChannelImage xyz(ChannelImage channels) const;
+    [[nodiscard]] Triple xyz(const std::vector<double>& channels, double metered) const;
+    /// What a film's light meter says of an image: the luminance that counts as white, that of --white if it
+    /// has one, else the 99th percentile, both through the green layer. 1 for other detectors.
+    [[nodiscard]] double metered(const ChannelImage& channels) const;
 
     /// --white, else the cube's word on its scene's first light, else E. `image`: in XYZ, for "at:X,Y".
     [[nodiscard]] White white(const ChannelImage& image) const;
 
   private:
     [[nodiscard]] White statedWhite() const;
+    [[nodiscard]] Detector wantedDetector(const std::string& observer);
 
     std::string wanted_;  ///< --white
     CubeInfo info_;
@@ -60,6 +73,8 @@ class Observation {
     Library library_;
     SpectrumResolver resolver_;
     Detector standard_;  ///< CIE 1931
+    std::optional<FilmProjection> film_;
+    double filmStops_;
     Detector detector_;
     std::optional<Spectrum> light_;  ///< of a cube that needs one
     double lightScale_ = 1;

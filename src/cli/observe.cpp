@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <limits>
+#include <utility>
 
 namespace spectrad {
 
@@ -90,9 +90,12 @@ Json writeChannels(const ObserveArguments& arguments, const Observation& observa
 
 ExitCode observe(const ObserveArguments& arguments) {
     Console console(arguments.quiet);
-    const Task task = taskOf(arguments);
+    Task task = taskOf(arguments);
     const Cube cube = readCube(arguments.cube, console.notes());
-    const Observation observation(arguments.observer, cube.info, console.notes());
+    const bool film = namesFilm(arguments.observer.observer);
+    ObserverArguments observer = arguments.observer;
+    if (film) observer.filmStops = -std::exchange(task.settings.exposure, Exposure{}).ev;
+    const Observation observation(observer, cube.info, console.notes());
     console.printNotes();
     const ChannelImage channels = observation.channels(cube);
     const Json details = task.picture

@@ -1,6 +1,7 @@
 #include "colour/detector.h"
 
 #include "base/text.h"
+#include "spectrum/detector_product.h"
 #include "spectrum/projection.h"
 
 #include <algorithm>
@@ -33,13 +34,20 @@ Detector detectorFrom(const Spectrum& spectrum) {
             channel = "channel" + std::to_string(c + 1);
         detector.response.push_back(spectrum.curves[c].withOutside(Outside::zero));
     }
+    if (detector.channels == std::vector<std::string>{"V"}) {
+        // The candela is 1/683 W/sr at 540 THz for every luminous efficiency, photopic or scotopic: 1700
+        // lm/W.
+        constexpr double candelaNm = 555.016;  // in standard air, as the tables are
+        const double there = detector.response.front().at(candelaNm);
+        if (there > 0) detector.scale = 683 / there;
+    }
     detector.tristimulus = detector.channels == std::vector<std::string>{"X", "Y", "Z"};
     if (detector.tristimulus) detector.scale = luminousEfficacy;
     return detector;
 }
 
 Detector detectorFor(const std::string& text, const SpectrumResolver& resolver, const SourceLocation& where) {
-    return detectorFrom(resolver.resolve(text, Role::detector, where));
+    return detectorFrom(detectorSpectrum(text, resolver, where));
 }
 
 Detector standardObserver(const Library& library) {

@@ -15,7 +15,8 @@ struct Detector {
     std::string name;                   ///< as the user named it
     std::vector<std::string> channels;  ///< "X" "Y" "Z", "L" "M" "S", "R" "G" "B", …
     std::vector<Curve> response;        ///< one per channel, zero outside their range
-    double scale = 1;          ///< 683.002 lm/W for colour matching functions, so that Y is in cd/m²; else 1
+    double scale = 1;  ///< 683.002 lm/W for colour matching functions, so that Y is in cd/m²; for a luminous
+                       ///< efficiency V what makes it 683 lm/W at 540 THz; else 1
     bool tristimulus = false;  ///< channels are X Y Z
 
     [[nodiscard]] size_t size() const { return response.size(); }
@@ -23,8 +24,8 @@ struct Detector {
 
 inline constexpr double luminousEfficacy = 683.002;  ///< K_m, lm/W (CIE 2006; FORMAT: Amounts)
 
-/// A library name, with its folder or without ("observers/cie1931-2", "cie1931-2", "nikon-5100"), or a file
-/// of the user's; throws InputError.
+/// A library name, with its folder or without ("observers/cie1931-2", "cie1931-2", "nikon-5100"), a file of
+/// the user's, or a product of them (spectrum/detector_product.h); throws InputError.
 [[nodiscard]] Detector detectorFor(const std::string& text, const SpectrumResolver& resolver,
                                    const SourceLocation& where);
 /// The CIE 1931 observer of the library: what photometric amounts, default whites and colour temperatures are

@@ -95,6 +95,9 @@ XyzMatrix towardsXyz(const Detector& detector, const Detector& observer) {
     const size_t n = detector.size();
     if (detector.tristimulus) return {std::vector<double>{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
+    if (detector.channels == std::vector<std::string>{"V"})
+        return {std::vector<double>{1}, std::vector<double>{1}, std::vector<double>{1}};
+
     const auto overlap = [](const Curve& a, const Curve& b) {
         const std::array<const Curve*, 2> both{&a, &b};
         return integrate(both);

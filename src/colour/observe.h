@@ -41,8 +41,9 @@ using XyzMatrix = std::array<std::vector<double>, 3>;
 /// The matrix that takes a detector's channels to those of `observer`: of all matrices the
 /// one whose combined sensitivities lie nearest to the observer's over wavelength (least squares; no training
 /// set). Exact for XYZ themselves and, to their published rounding, for cone fundamentals of the same
-/// observer; for a camera the usual approximation, whose error is its failure of the Luther condition. Throws
-/// InputError unless `observer` is tristimulus, and for a detector with no sensitivity.
+/// observer; for a camera the usual approximation, whose error is its failure of the Luther condition. A
+/// luminous efficiency V alone knows no colour: it becomes a grey of X = Y = Z. Throws InputError unless
+/// `observer` is tristimulus, and for a detector with no sensitivity.
 [[nodiscard]] XyzMatrix towardsXyz(const Detector& detector, const Detector& observer);
 /// Channels to X Y Z by such a matrix.
 [[nodiscard]] ChannelImage toXyz(const XyzMatrix& matrix, const ChannelImage& channels);

@@ -74,7 +74,8 @@ std::vector<ElementRule> makeGrammar() {
         rule("light", "name type! position target direction angle blend spectrum!" + amount + " scale"),
         rule("background", "spectrum! luminance radiance scale"),
         rule("camera", "name type fov sensor focal height look-from look-at up size"),
-        rule("detector", "name! observer!"),
+        rule("detector", "name! observer sensitivity quantum-efficiency lens filter", "channel"),
+        rule("channel", "name! filter!"),
         rule("pass", "name! scene camera of lights size samples wavelengths projection as repeat save"),
     };
 }

@@ -1,5 +1,6 @@
 // <camera> and <detector>.
 #include "scene/reading.h"
+#include "spectrum/detector_product.h"
 
 #include <cmath>
 #include <numbers>
@@ -57,6 +58,27 @@ Camera readCamera(Reading& reading, const Element& element) {
     return camera;
 }
 
+/// <detector>'s sensor, lens and filters, and its channels' own filters.
+static DetectorProduct readProduct(const Element& element) {
+    DetectorProduct product;
+    const auto add = [](std::vector<DetectorFactor>& factors, const Element& from, const char* attribute,
+                        bool quantum) {
+        if (from.has(attribute)) factors.push_back({from.text(attribute), quantum, from.where(attribute)});
+    };
+    add(product.common, element, "sensitivity", false);
+    add(product.common, element, "quantum-efficiency", true);
+    if (product.common.size() != 1)
+        element.fail("needs one of the attributes 'observer', 'sensitivity' and 'quantum-efficiency'");
+    add(product.common, element, "lens", false);
+    add(product.common, element, "filter", false);
+    for (const pugi::xml_node node : element.node().children("channel")) {
+        const Element channel(element.document(), node);
+        product.channels.push_back({channel.text("name"), {}});
+        add(product.channels.back().factors, channel, "filter", false);
+    }
+    return product;
+}
+
 void readDetectors(Reading& reading) {
     for (const pugi::xml_node node : reading.document.root().children("detector")) {
         const Element element(reading.document, node);
@@ -64,8 +86,18 @@ void readDetectors(Reading& reading) {
         detector.where = element.where();
         detector.name = element.text("name");
         detector.observer = element.text("observer");
-        static_cast<void>(reading.spectrum(
-            element, "observer", Role::detector));  // it must be there, and its file is one that was read
+        if (element.has("observer")) {
+            for (const char* attribute : {"sensitivity", "quantum-efficiency", "lens", "filter"})
+                element.refuse(attribute, "cannot stand beside 'observer'");
+            if (element.child("channel")) element.fail("has an 'observer', which brings its own channels");
+            detector.sensitivity =
+                detectorSpectrum(detector.observer, reading.resolver, element.where("observer"));
+        } else {
+            detector.sensitivity =
+                multiplied(readProduct(element), detector.name, reading.resolver, element.where());
+        }
+        for (const std::filesystem::path& file : detector.sensitivity.files)
+            reading.files.add(file);
         reading.detectors.add(detector.name, static_cast<Index>(reading.scene.detectors.size()),
                               detector.where);
         reading.scene.detectors.push_back(std::move(detector));

@@ -174,7 +174,8 @@ struct Camera {
 };
 
 struct DetectorUse {
-    std::string name, observer;
+    std::string name, observer;  ///< as the scene writes it; empty for a product of its own curves
+    Spectrum sensitivity;        ///< a curve a channel
     SourceLocation where;
 };
 

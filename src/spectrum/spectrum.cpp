@@ -8,9 +8,9 @@
 
 namespace spectrad {
 
-static constexpr std::array<std::string_view, 10> quantityNames{
-    "unknown",   "reflectance", "transmittance", "radiance", "irradiance",
-    "intensity", "power",       "sensitivity",   "index",    "reradiation"};
+static constexpr std::array<std::string_view, 11> quantityNames{
+    "unknown", "reflectance", "transmittance", "radiance",    "irradiance", "intensity",
+    "power",   "sensitivity", "index",         "reradiation", "density"};
 
 std::string_view name(Quantity quantity) {
     return quantityNames.at(static_cast<size_t>(quantity));

@@ -21,7 +21,8 @@ enum class Quantity {
     power,
     sensitivity,
     index,
-    reradiation
+    reradiation,
+    density  ///< optical density, −lg of a transmittance
 };
 [[nodiscard]] std::string_view name(Quantity quantity);
 /// Throws InputError (with the allowed names) for an unknown one.

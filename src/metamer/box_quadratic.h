@@ -1,0 +1,41 @@
+// Convex quadratic programmes with equalities and a box, small and dense.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace spectrad {
+
+using Rows = std::vector<std::vector<double>>;
+
+/// Cholesky's factor of a symmetric positive definite matrix, for many right-hand sides.
+class Cholesky {
+  public:
+    /// `a` by rows. Directions of no more than rounding are left out: their solution is 0.
+    explicit Cholesky(Rows a);
+    [[nodiscard]] std::vector<double> solve(std::vector<double> b) const;
+
+  private:
+    Rows factor_;  ///< lower triangle
+};
+
+struct BoxQuadratic {
+    Rows q;                      ///< symmetric, positive semidefinite
+    std::vector<double> linear;  ///< minimise ½ xᵀ q x + linearᵀ x
+    Rows a;                      ///< subject to a x = b,
+    std::vector<double> b;
+    double low = 0, high = 1;  ///< and low ≤ x ≤ high
+};
+
+struct BoxSolution {
+    std::vector<double> x;   ///< inside the box
+    double largestMiss = 0;  ///< of a x = b, over the largest |b|
+    int steps = 0;
+};
+
+/// Alternating direction method of multipliers (Boyd et al. 2011, Found. Trends Mach. Learn. 3, 5.2):
+/// minimise on the plane a x = b, project on the box, add up what they disagree by; until they agree to 1e-9,
+/// or `mostSteps`.
+[[nodiscard]] BoxSolution minimise(const BoxQuadratic& problem, int mostSteps = 20'000);
+
+}  // namespace spectrad
