@@ -14,7 +14,7 @@ build: $(PROGRAM)
 
 ##demo            install what is missing, build, render the showcase scenes into out/
 .PHONY: demo
-PICTURES := colorchecker colorchecker-FL11 still-life pavilion chess
+PICTURES := colorchecker colorchecker-FL11 still-life pavilion chess figure5 display
 demo: packages $(PICTURES:%=out/%.exr) $(PICTURES:%=out/%.png)
 	@echo "Spectral images (W.m^-2.sr^-1.nm^-1): $(PICTURES:%=out/%.exr)"
 	@echo "Pictures of them for the screen:      $(PICTURES:%=out/%.png)"
@@ -94,6 +94,10 @@ $(PROGRAM) observe out/$(1).exr -o out/$(1).png --exposure $(or $(EXPOSURE_$(1))
 endef
 
 out/%.exr out/%.png: scenes/%.xml $(PROGRAM) $(SPECTRA) | out
+	$(call RENDER,$*)
+out/%.exr out/%.png: scenes/paper/%.xml $(PROGRAM) $(SPECTRA) | out
+	$(call RENDER,$*)
+out/%.exr out/%.png: scenes/passes/%.xml $(PROGRAM) $(SPECTRA) | out
 	$(call RENDER,$*)
 out/%.exr out/%.png: scenes/models/%.dae $(PROGRAM) $(SPECTRA) | out
 	$(call RENDER,$*)

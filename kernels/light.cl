@@ -1,6 +1,6 @@
 /* Lighting: the geometry factors g of every term of the term image, summed over a pixel's samples. No wavelength appears here. */
 #include "blocks.h"
-#include "lobes.h"
+#include "mapping.h"
 
 /* Irradiance at normal incidence per unit of the group's spectrum, and where it comes from. */
 static vfloat arriving(sd_light light, v3 position, v3* to_light) {
@@ -69,7 +69,8 @@ static void shade_light(sd_lobe lobe, global const sd_piece* tables, sd_light li
 
 /* All lobes of a material under all lights, for the lanes of `mask`; sums: g of the material's first term at the lanes' first pixel. */
 static void shade(sd_material material, global const sd_lobe* lobes, global const sd_piece* tables, global const sd_light* lights,
-                  uint light_count, uint groups, surface s, vint mask, paint p, global float* sums) {
+                  uint light_count, uint groups, surface s, sd_frame frame, vfloat x, vfloat y, vint mask, paint p,
+                  global float* sums) {
     for (uint l = 0; l < material.lobes; ++l) {
         const sd_lobe lobe = lobes[material.first_lobe + l];
         if (lobe.type == SD_LOBE_EMISSION) {
@@ -77,6 +78,12 @@ static void shade(sd_material material, global const sd_lobe* lobes, global cons
             add_painted(lobe, p, s, 1.0f, mask, 1, sums + lobe.term * SD_BLOCK);
             continue;
         }
+#ifdef HAS_MAPPING
+        if (lobe.type == SD_LOBE_REFLECTION) {
+            reflection(lobe, tables, frame, s, mask, p, x, y, sums + lobe.term * SD_BLOCK);
+            continue;
+        }
+#endif
         const lobe_view at_view = view_of(lobe, tables, s);
         for (uint k = 0; k < light_count; ++k) shade_light(lobe, tables, lights[k], groups, s, mask, at_view, p, sums);
     }
@@ -133,13 +140,19 @@ BLOCK_GROUP kernel void light_block(global const ulong* keys, global const uint*
                 known = 1;
             }
             global float* material_sums = sums + seen_offset * SD_BLOCK + pixel;
+            const vfloat x = V_FLOAT(x0 + VLOAD(pattern_x + lane % PATTERN)), y = V_FLOAT(y0 + VLOAD(pattern_y + lane % PATTERN));
             if (triangle == NO_TRIANGLE) {
+#ifdef HAS_MAPPING
+                if (material.terms > 0 && lobes[material.first_lobe].texture != 0) {
+                    backdrop(lobes[material.first_lobe], frame, mask, p, x, y, material_sums);
+                    continue;
+                }
+#endif
                 if (material.terms > 0) add_to(material_sums, select((vfloat)0.0f, (vfloat)1.0f, mask));
                 continue;
             }
-            const vfloat x = V_FLOAT(x0 + VLOAD(pattern_x + lane % PATTERN)), y = V_FLOAT(y0 + VLOAD(pattern_y + lane % PATTERN));
             const surface s = surface_at(index + 3 * (size_t)triangle, camera, camera_normal, coordinates, frame, x, y);
-            shade(material, lobes, tables, lights, light_count, groups, s, mask, p, material_sums);
+            shade(material, lobes, tables, lights, light_count, groups, s, frame, x, y, mask, p, material_sums);
         }
     }
     const float inv_samples = 1.0f / (float)frame.samples;

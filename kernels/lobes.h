@@ -10,7 +10,7 @@ typedef struct table_cell {
     vfloat t;
 } table_cell;
 
-#if defined(HAS_ROUGH) || defined(HAS_COATED) || defined(HAS_FACETS)
+#if defined(HAS_ROUGH) || defined(HAS_COATED) || defined(HAS_FACETS) || defined(HAS_MAPPING)
 static inline table_cell cell_of(vfloat cosine) {
     /* Lanes that see something else may hold NaN here: fmax() makes them 0, clamp() need not. */
     const vfloat at = sqrt(fmin(fmax(cosine, 0.0f), 1.0f)) * (float)SD_CELLS;

@@ -49,8 +49,18 @@ static surface surface_at(global const uint* corner, global const float* camera,
     const global float* p0 = camera + 3 * (size_t)corner[0];
     const global float* p1 = camera + 3 * (size_t)corner[1];
     const global float* p2 = camera + 3 * (size_t)corner[2];
-    const vfloat rx = x * frame.slope_per_subpixel, ry = -(y * frame.slope_per_subpixel);
     vfloat u0, v0, u1, v1, u2, v2;
+#ifdef BAKE
+    /* Corners in the texture's square, SD_SUBPIXEL-ths of a texel from its centre. */
+    const float wide = (float)(frame.width * SD_SUBPIXEL), high = (float)(frame.height * SD_SUBPIXEL);
+    const global float* c0 = coordinates + 2 * (size_t)corner[0];
+    const global float* c1 = coordinates + 2 * (size_t)corner[1];
+    const global float* c2 = coordinates + 2 * (size_t)corner[2];
+    u0 = (c0[0] - 0.5f) * wide - x, v0 = (0.5f - c0[1]) * high - y;
+    u1 = (c1[0] - 0.5f) * wide - x, v1 = (0.5f - c1[1]) * high - y;
+    u2 = (c2[0] - 0.5f) * wide - x, v2 = (0.5f - c2[1]) * high - y;
+#else
+    const vfloat rx = x * frame.slope_per_subpixel, ry = -(y * frame.slope_per_subpixel);
     if (frame.orthographic) {
         u0 = p0[0] - rx, v0 = p0[1] - ry, u1 = p1[0] - rx, v1 = p1[1] - ry, u2 = p2[0] - rx, v2 = p2[1] - ry;
     } else {
@@ -58,6 +68,7 @@ static surface surface_at(global const uint* corner, global const float* camera,
         u1 = fma(rx, (vfloat)p1[2], (vfloat)p1[0]), v1 = fma(ry, (vfloat)p1[2], (vfloat)p1[1]);
         u2 = fma(rx, (vfloat)p2[2], (vfloat)p2[0]), v2 = fma(ry, (vfloat)p2[2], (vfloat)p2[1]);
     }
+#endif
     vfloat b0 = fma(u1, v2, -(u2 * v1)), b1 = fma(u2, v0, -(u0 * v2)), b2 = fma(u0, v1, -(u1 * v0));
     const vfloat turn = copysign((vfloat)1.0f, b0 + b1 + b2);
     b0 = fmax(b0 * turn, 0.0f), b1 = fmax(b1 * turn, 0.0f), b2 = fmax(b2 * turn, 0.0f);
@@ -87,7 +98,10 @@ static surface surface_at(global const uint* corner, global const float* camera,
     s.u = fma(b2, (vfloat)t2[0], fma(b1, (vfloat)t1[0], b0 * t0[0]));
     s.v = fma(b2, (vfloat)t2[1], fma(b1, (vfloat)t1[1], b0 * t0[1]));
 #endif
-#ifdef HAS_MIP
+#if defined(HAS_MIP) && defined(BAKE)
+    s.u_x = 1.0f / (float)frame.width, s.v_y = 1.0f / (float)frame.height;
+    s.v_x = s.u_y = 0.0f;
+#elif defined(HAS_MIP)
     /* b1 and b2 before they were divided by the sum of all are linear in the ray's slopes, and so is the sum: the slopes of these
      * belong to the triangle. Differences of corners keep the digits of small triangles. */
     const float pixel = (float)SD_SUBPIXEL * frame.slope_per_subpixel;
@@ -113,6 +127,10 @@ static surface surface_at(global const uint* corner, global const float* camera,
         s.view.x = -s.position.x, s.view.y = -s.position.y, s.view.z = -s.position.z;
         s.view = unit3(s.view);
     }
+#ifdef BAKE
+    /* A texture belongs to the outside. */
+    s.normal = unit3(n);
+#else
     /* The seen side: the face's plane decides, so that a smooth normal that leans over the silhouette stays on its side. */
     const v3 e1 = {(vfloat)(p1[0] - p0[0]), (vfloat)(p1[1] - p0[1]), (vfloat)(p1[2] - p0[2])};
     const v3 e2 = {(vfloat)(p2[0] - p0[0]), (vfloat)(p2[1] - p0[1]), (vfloat)(p2[2] - p0[2])};
@@ -120,6 +138,7 @@ static surface surface_at(global const uint* corner, global const float* camera,
     const vfloat seen = dot3(face, s.view), along = dot3(face, n);
     n = unit3(n);
     s.normal = scale3(n, copysign((vfloat)1.0f, seen) * copysign((vfloat)1.0f, along));
+#endif
     s.cos_view = fmax(dot3(s.normal, s.view), MIN_COS_VIEW);
     return s;
 }

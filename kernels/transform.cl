@@ -3,8 +3,8 @@
 
 /* One work-item a vertex. position, normal: 3 floats a vertex; draw: which placement. */
 kernel void transform(global const float* position, global const float* normal, global const uint* draw,
-                      global const sd_draw* draws, sd_frame frame, uint count, global float* camera, global float* camera_normal,
-                      global sd_vertex* screen) {
+                      global const sd_draw* draws, global const float* coordinates, sd_frame frame, uint count,
+                      global float* camera, global float* camera_normal, global sd_vertex* screen) {
     const uint v = (uint)get_global_id(0);
     if (v >= count) return;
     const global sd_draw* d = draws + draw[v];
@@ -17,9 +17,15 @@ kernel void transform(global const float* position, global const float* normal, 
     camera[3 * v + 2] = (float)z;
 
     /* Clipping decides on the same float depth and the same slopes that clip.cl cuts with. */
+#ifdef BAKE
+    /* On the screen lie texture coordinates, (0,0) bottom left; nothing is nearer than anything else. */
+    const double depth = 1.0, reach = 1.0;
+    const double sx = ((double)coordinates[2 * v] - 0.5) * frame.width, sy = (0.5 - (double)coordinates[2 * v + 1]) * frame.height;
+#else
     const double depth = -z;
     const double reach = frame.orthographic ? 1.0 : depth;
     const double sx = x * frame.pixels_per_slope, sy = -y * frame.pixels_per_slope;
+#endif
     const double guard = (double)SD_GUARD * reach;
     sd_vertex s;
     s.outside = (depth < (double)SD_NEAR ? SD_OUT_NEAR : 0) | (sx < -guard ? SD_OUT_LEFT : 0) | (sx > guard ? SD_OUT_RIGHT : 0) |

@@ -50,6 +50,8 @@ typedef struct sd_frame {
     sd_int samples;               /* per pixel, as asked for */
     sd_int tile_shift;            /* tiles are 2^tile_shift pixels on a side */
     sd_int tiles_x, tiles_y;
+    float to_world[9];            /* rotation from camera space to the world's axes, rows */
+    sd_int baked;                 /* 1: the image is the square of texture coordinates, its surfaces lit where they stand (BAKE) */
     sd_int pad_;
 } sd_frame;
 
@@ -97,6 +99,7 @@ typedef struct sd_light {
 #define SD_LOBE_DIFFUSE 2  /* Lambert; this and the lobes below have a term for each light group */
 #define SD_LOBE_ROUGH 3    /* Oren-Nayar: a term for single and one for multiple scattering */
 #define SD_LOBE_COATED 4   /* Lambert under a coat */
+#define SD_LOBE_REFLECTION 6 /* a mirror's image: functions of the angle times the bands of an image; no lights */
 #define SD_LOBE_FACETS 5   /* GGX microfacets whose Fresnel reflectance is a sum of functions of the angle */
 
 /* Functions of a cosine are cubics on cells uniform in the square root of the cosine, which keeps grazing angles apart:
@@ -109,6 +112,7 @@ typedef struct sd_piece {
 /* Tables of a lobe, each SD_CELLS pieces from `table` on.
  *   COATED: what the coat lets through.
  *   ROUGH:  1 - directional albedo of single scattering.
+ *   REFLECTION: `functions` Fresnel factors over the cosine of the view.
  *   FACETS: 1 - directional albedo were the facets perfect mirrors ("missing"); then `functions` directional albedos; then
  *           `functions` Fresnel factors over the cosine between view and facet. */
 typedef struct sd_lobe {
@@ -124,7 +128,13 @@ typedef struct sd_lobe {
     sd_uint strength;    /* the same: 1 + number of the texture whose one band multiplies g; 0: none */
     sd_int steps;        /* of a painted lobe: terms for each interval between bands, see texture.h */
     float inside;        /* COATED: reflectance of the coat from inside; ROUGH: 1 - mean albedo; 0: linear in the texel */
+    sd_uint mapping;     /* of the texture: SD_MAP_ */
+    sd_uint pad_;
 } sd_lobe;
+
+#define SD_MAP_SURFACE 0 /* the surface's coordinates */
+#define SD_MAP_PICTURE 1 /* the place in the picture that is rendered */
+#define SD_MAP_CUBE 2    /* the direction: six faces one below the other */
 
 /* A texture: texels[first + (row * width + column) * bands + band], row 0 on top; then, for SD_MIP, levels of half the size each.
  * Bands are reflectances at wavelengths, shares of measured spectra, a strength or directions. A lobe that is painted has terms
@@ -148,8 +158,8 @@ typedef struct sd_material {
 } sd_material;
 
 #ifndef __OPENCL_VERSION__
-static_assert(sizeof(sd_frame) == 56 && sizeof(sd_draw) == 144 && sizeof(sd_vertex) == 16 && sizeof(sd_large) == 64 + 0 &&
-                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 48 && sizeof(sd_texture) == 56 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 16,
+static_assert(sizeof(sd_frame) == 96 && sizeof(sd_draw) == 144 && sizeof(sd_vertex) == 16 && sizeof(sd_large) == 64 + 0 &&
+                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 56 && sizeof(sd_texture) == 56 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 16,
               "layout shared with the kernels");
 #endif
 

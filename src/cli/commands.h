@@ -15,6 +15,7 @@ namespace spectrad {
 using Action = std::function<ExitCode()>;
 
 void addRender(CLI::App& app, Action& action);
+void addBake(CLI::App& app, Action& action);
 void addObserve(CLI::App& app, Action& action);
 void addMeasure(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);

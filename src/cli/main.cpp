@@ -85,6 +85,7 @@ ExitCode runProgram(const std::vector<std::string>& arguments) {
 
     Action action;
     addRender(app, action);
+    addBake(app, action);
     addObserve(app, action);
     addMeasure(app, action);
     addCompare(app, action);

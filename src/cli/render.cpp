@@ -103,7 +103,7 @@ CubeInfo cubeInfo(const RenderArguments& arguments, const Scene& scene, const Pl
                   const Device& device) {
     CubeInfo info;
     info.width = plan.view.width;
-    info.height = plan.view.height;
+    info.height = plan.view.height * plan.faces;
     info.wavelengths = plan.wavelengths;
     info.projectionStated = true;
     info.kind = plan.as == PassKind::reflectance     ? CubeKind::reflectance
@@ -205,7 +205,7 @@ Json described(const Output& output, const Plan& plan, const Device& device, con
     Json out{{"output", output.cube.string()}};
     if (!output.preview.empty()) out["preview"] = output.preview.string();
     out.update({{"width", plan.view.width},
-                {"height", plan.view.height},
+                {"height", plan.view.height * plan.faces},
                 {"wavelengths_nm", plan.wavelengths.nm},
                 {"projection", name(plan.wavelengths.projection)},
                 {"samples", plan.samples},
@@ -233,9 +233,9 @@ void printSummary(const Output& output, const Plan& plan, const Seconds& seconds
     printText(fmt::format(
         "{}: {} x {} pixels, {} bands {} to {} nm, {} samples a pixel; {:.2f} s (load {:.2f}, plan {:.2f}, "
         "build {:.2f}, render {:.2f}, write {:.2f})\n",
-        output.cube.string(), plan.view.width, plan.view.height, nm.size(), rounded(nm.front(), 9),
-        rounded(nm.back(), 9), plan.samples, seconds.total, seconds.load, seconds.plan, seconds.build,
-        seconds.render, seconds.write));
+        output.cube.string(), plan.view.width, plan.view.height * plan.faces, nm.size(),
+        rounded(nm.front(), 9), rounded(nm.back(), 9), plan.samples, seconds.total, seconds.load,
+        seconds.plan, seconds.build, seconds.render, seconds.write));
 }
 
 /// Where a pass asks to be written to as well (save=): as -o would write it.
@@ -301,7 +301,7 @@ ExitCode render(const RenderArguments& arguments) {
         preview.add(firstRow, rows, linear);
         seconds.write += waiting.seconds();
     };
-    if (plan.as == PassKind::radiance) {
+    if (plan.as == PassKind::radiance && plan.faces == 1 && !(target && target->screen)) {
         Renderer renderer(*device, plan);
         ProgressBar bar("rendering", arguments.quiet);
         renderer.render(deliver, [&](double share) { bar.show(share); });

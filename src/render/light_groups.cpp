@@ -147,8 +147,8 @@ double absoluteFactor(const Emitter& emitter, const Detector& observer) {
 }
 
 std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view,
-                                    const Detector& observer, std::vector<sd_light>& lights,
-                                    bool equalEnergy) {
+                                    const Detector& observer, const ResolveEmitter& resolved,
+                                    std::vector<sd_light>& lights, bool equalEnergy) {
     std::vector<LightGroup> groups;
     const auto add = [&](const Emitter& given, double unitFactor, sd_light l) {
         const Emitter emitter = equalEnergy ? withConstantSpectrum(given) : given;
@@ -171,9 +171,10 @@ std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, c
         // Uniform radiance L from everywhere arrives as irradiance π L.
         if (light.type == LightType::ambient) factor *= std::numbers::pi;
         ambient = ambient || light.type == LightType::ambient;
-        add(light.emitter, factor, placed(light, place.toWorld, view));
+        add(resolved(light.emitter), factor, placed(light, place.toWorld, view));
     }
-    if (scene.background && !ambient && !equalEnergy && showsSurroundings(scene)) {
+    if (scene.background && !scene.background->texture && !ambient && !equalEnergy &&
+        showsSurroundings(scene)) {
         sd_light surroundings{};
         surroundings.type = SD_LIGHT_SURROUNDINGS;
         add(*scene.background, std::numbers::pi, surroundings);

@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 #include "types.h"
 
+#include <functional>
 #include <vector>
 
 namespace spectrad {
@@ -24,12 +25,15 @@ struct LightGroup {
 /// the integral is zero, or does not exist (a constant without a range).
 [[nodiscard]] double absoluteFactor(const Emitter& emitter, const Detector& observer);
 
+/// Gives an emitter whose spectrum is a pass that spectrum.
+using ResolveEmitter = std::function<Emitter(const Emitter&)>;
+
 /// Places the scene's lights for a view and groups them. Lights of no power are kept: they cost little and
 /// change nothing. Where no ambient light is, the background comes last, for mirrors to show. `equalEnergy`:
 /// every light has a constant spectrum instead of its own; amounts count
 /// relative to each other only.
 [[nodiscard]] std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view,
-                                                  const Detector& observer, std::vector<sd_light>& lights,
-                                                  bool equalEnergy = false);
+                                                  const Detector& observer, const ResolveEmitter& resolved,
+                                                  std::vector<sd_light>& lights, bool equalEnergy = false);
 
 }  // namespace spectrad

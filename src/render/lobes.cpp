@@ -4,6 +4,7 @@
 #include "render/facets.h"
 #include "render/fresnel.h"
 #include "render/term_table.h"
+#include "scene/pass_needs.h"
 
 #include <fmt/format.h>
 
@@ -36,7 +37,11 @@ void TermBuilder::addCoatedBase(const Material& material, const Curve& weight, c
 }
 
 void TermBuilder::addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra,
-                            double alpha) {
+                            double alpha, const std::optional<TextureUse>& reflects) {
+    if (reflects) {
+        addReflection(*reflects, fresnel, spectra);
+        return;
+    }
     const FacetAlbedos facets = facetAlbedos(fresnel, alpha);
     std::vector<std::vector<sd_piece>> tables{
         tabulate([&](double c) { return std::max(0.0, 1 - facets.white(c)); })};
@@ -83,6 +88,11 @@ void TermBuilder::addGloss(const Material& material) {
         const double inside = std::max(0.0, 1 - coat.meanThrough / (n * n));
         addCoatedBase(material, weight, coat.through, coat.meanThrough, inside);
         if (only_ == Only::fluorescence) continue;
+        if (material.gloss->reflects) {
+            addReflection(*material.gloss->reflects, {[n](double c) { return fresnelDielectric(c, n); }},
+                          {weight});
+            continue;
+        }
         sd_lobe lobe = beginLobe(SD_LOBE_FACETS);
         lobe.table =
             addTables({tabulate([&](double c) { return std::max(0.0, 1 - coat.facets.white(c)); }),
@@ -111,7 +121,7 @@ void TermBuilder::addSpecular(const Material& material) {
     if (only_ == Only::fluorescence) return;
     addFacets(
         {[](double c) { return 1 - fresnelSchlick(c, 0); }, [](double c) { return fresnelSchlick(c, 0); }},
-        {r0, one()}, alpha);
+        {r0, one()}, alpha, material.specular->reflects);
 }
 
 void TermBuilder::addConductor(const Material& material) {
@@ -125,7 +135,7 @@ void TermBuilder::addConductor(const Material& material) {
     if (metal.schlick)
         notes_.say(fmt::format("material '{}': Schlick's formula is off by up to {:.3f} in reflectance",
                                material.name, schlickError(n, k, from, to)));
-    if (!basis.angle.empty()) addFacets(basis.angle, basis.spectrum, alpha);
+    if (!basis.angle.empty()) addFacets(basis.angle, basis.spectrum, alpha, metal.reflects);
 }
 
 std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) {
@@ -156,7 +166,7 @@ std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) 
             endLobe(lobe);
         }
     }
-    if (groups_.empty()) return number;
+    if (groups_.empty() && !reflectionOf(material)) return number;
     if (material.conductor)
         addConductor(material);
     else if (material.gloss)

@@ -131,6 +131,18 @@ void holdAboveZero(SpectralTexture& texture, const TextureUse& use, Notes& notes
                         use.source, clipped, texture.texels.size()));
 }
 
+sd_uint mappingOf(const TextureUse& use) {
+    return use.mapping == TextureMapping::cube      ? SD_MAP_CUBE
+           : use.mapping == TextureMapping::picture ? SD_MAP_PICTURE
+                                                    : SD_MAP_SURFACE;
+}
+
+/// The hat of a band of radiances. A single band says nothing of how wide it is: it counts everywhere.
+Curve glowHat(const std::vector<double>& nm, size_t t) {
+    const Curve held = nodeCurve(nm, 1, t);
+    return nm.size() == 1 ? held : held.withOutside(Outside::zero);
+}
+
 std::string keyOf(const char* kind, const TextureUse& use) {
     return fmt::format("{} {} {} {} {} {} {} {} {}", kind, use.source, static_cast<int>(use.filter),
                        use.repeat, use.offset[0], use.offset[1], use.scale[0], use.scale[1],
@@ -151,6 +163,12 @@ const TermBuilder::Image& TermBuilder::spectralTexture(const TextureUse& use) {
     Image& image = images_[keyOf(use.role == TextureRole::radiance ? "radiance" : "reflectance", use)];
     if (image.number == 0) {
         SpectralTexture texture = textures_.load(use);
+        if (use.mapping == TextureMapping::cube && !(texture.width == 1 && texture.height == 1) &&
+            texture.height != 6 * texture.width)
+            throw InputError(
+                use.where, fmt::format("{} has {}x{} pixels; six square faces, one below the other, are six "
+                                       "times as high as wide",
+                                       use.source, texture.width, texture.height));
         if (use.role == TextureRole::radiance && texture.nm != grid_.nm) holdAboveZero(texture, use, notes_);
         const int bands = static_cast<int>(texture.nm.size());
         image.number =
@@ -179,13 +197,32 @@ std::uint32_t TermBuilder::shareTexture(const Select& select) {
 void TermBuilder::addGlowing(const TextureUse& use, double factor) {
     const Image image = spectralTexture(use);
     sd_lobe lobe = beginLobe(SD_LOBE_EMISSION);
+    lobe.mapping = mappingOf(use);
     lobe.texture = image.number;
     for (size_t t = 0; t < image.nm.size(); ++t) {
-        // A single band says nothing of how wide it is: it counts everywhere.
-        const Curve held = nodeCurve(image.nm, 1, t);
-        const Curve hat = image.nm.size() == 1 ? held : held.withOutside(Outside::zero);
+        const Curve hat = glowHat(image.nm, t);
         addTerm({{{&hat}, factor}});
     }
+    endLobe(lobe);
+}
+
+// What a mirror shows in place of lights: Fresnel's functions of the angle times the image's bands.
+void TermBuilder::addReflection(const TextureUse& use, const std::vector<AngleFunction>& fresnel,
+                                const std::vector<Curve>& spectra) {
+    std::vector<std::vector<sd_piece>> tables;
+    for (const AngleFunction& f : fresnel)
+        tables.push_back(tabulate(f));
+    const Image image = spectralTexture(use);
+    sd_lobe lobe = beginLobe(SD_LOBE_REFLECTION);
+    lobe.table = addTables(tables);
+    lobe.functions = static_cast<sd_uint>(fresnel.size());
+    lobe.mapping = mappingOf(use);
+    lobe.texture = image.number;
+    for (const Curve& spectrum : spectra)
+        for (size_t t = 0; t < image.nm.size(); ++t) {
+            const Curve hat = glowHat(image.nm, t);
+            addTerm({{{&spectrum, &hat}}});
+        }
     endLobe(lobe);
 }
 

@@ -1,6 +1,8 @@
 #include "render/passes.h"
 
+#include "render/bake.h"
 #include "render/renderer.h"
+#include "render/shown.h"
 
 #include <fmt/format.h>
 
@@ -126,33 +128,39 @@ Cube PassTextures::Body::renderPlain(size_t number, Substitute substitute, bool 
     NodeTextures textures(*node.shot.scene, library, notes, [&](const Pass& pass, const TextureUse& use) {
         return texture(number, pass, use);
     });
-    Plan plan = makePlan(node.shot, settings, library, textures, notes);
     Cube cube;
-    cube.info.width = plan.view.width;
-    cube.info.height = plan.view.height;
-    cube.info.wavelengths = plan.wavelengths;
     cube.info.projectionStated = true;
-    const size_t rowValues = plan.terms.bands * static_cast<size_t>(plan.view.width);
-    cube.values.resize(rowValues * static_cast<size_t>(plan.view.height));
-    {
-        Renderer renderer(device, plan);
-        renderer.render([&](int first, int rows, const float* bands, const float*) {
-            std::copy_n(bands, static_cast<size_t>(rows) * rowValues,
-                        cube.values.data() + static_cast<size_t>(first) * rowValues);
-        });
-    }
-    if (used) {
-        // What the image is called after; its geometry and textures are not needed any more.
-        plan.world = {};
-        plan.terms = {};
-        *used = std::move(plan);
+    for (int face = 0, faces = 1; face < faces; ++face) {
+        settings.cubeFace = face;
+        Plan plan = makePlan(node.shot, settings, library, textures, notes);
+        faces = plan.faces;
+        cube.info.width = plan.view.width;
+        cube.info.height = plan.view.height * faces;
+        cube.info.wavelengths = plan.wavelengths;
+        const size_t rowValues = plan.terms.bands * static_cast<size_t>(plan.view.width);
+        cube.values.resize(rowValues * static_cast<size_t>(cube.info.height));
+        float* top = cube.values.data() + rowValues * static_cast<size_t>(face * plan.view.height);
+        {
+            Renderer renderer(device, plan);
+            renderer.render([&](int first, int rows, const float* bands, const float*) {
+                std::copy_n(bands, static_cast<size_t>(rows) * rowValues,
+                            top + static_cast<size_t>(first) * rowValues);
+            });
+        }
+        if (used && face + 1 == faces) {
+            // What the image is called after; its geometry and textures are not needed any more.
+            plan.world = {};
+            plan.terms = {};
+            *used = std::move(plan);
+        }
     }
     return cube;
 }
 
 Cube PassTextures::Body::render(size_t number) {
     const GraphNode& node = graph[number];
-    const PassKind as = node.shot.pass ? node.shot.pass->as : PassKind::radiance;
+    const Pass* pass = node.shot.pass;
+    const PassKind as = node.settings.bake ? node.settings.bake->as : pass ? pass->as : PassKind::radiance;
     Plan plan;
     Cube cube = renderPlain(number,
                             as == PassKind::reflectance  ? Substitute::equalEnergy
@@ -164,9 +172,19 @@ Cube PassTextures::Body::render(size_t number) {
         for (float& value : cube.values)
             value *= std::numbers::pi_v<float>;
     if (as == PassKind::reflectance) cube = divided(number, std::move(cube));
+    if (pass && pass->screen) cube = shownOn(*pass->screen, std::move(cube), library, notes);
     cube.info.kind = kindOf(as);
+    if (node.settings.bake) {
+        const Cube coverage = renderPlain(number, Substitute::coverage, true);
+        // A ratio of two sums over the same samples needs no dividing by their number.
+        if (as != PassKind::reflectance) divideByCoverage(cube, coverage.values);
+        if (addGutter(cube, coverage.values, node.settings.bake->gutter) == 0)
+            throw InputError(
+                "node '" + node.settings.bake->node +
+                "' covers nothing of its texture: its coordinates lie outside 0…1, or no texel's "
+                "sample is within");
+    }
     const bool last = number + 1 == graph.size();
-    const Pass* pass = node.shot.pass;
     if (save && pass && !last && !pass->save.empty() && node.generation + 1 == std::max(pass->repeat, 1))
         save(*pass, plan, cube);
     return cube;
@@ -174,7 +192,10 @@ Cube PassTextures::Body::render(size_t number) {
 
 /// Equal-energy light divided by what a perfect white diffuser sends back.
 Cube PassTextures::Body::divided(size_t number, Cube cube) {
-    const Pass& pass = *graph[number].shot.pass;
+    const GraphNode& node = graph[number];
+    const std::string name = node.settings.bake ? "node '" + node.settings.bake->node + "'"
+                                                : "pass '" + node.shot.pass->name + "'";
+    const SourceLocation where = node.settings.bake ? SourceLocation{} : node.shot.pass->where;
     const Cube white = renderPlain(number, Substitute::whiteDiffuser, true);
     // Only where nothing is seen may there be nothing to divide by.
     const Cube seen = renderPlain(number, Substitute::coverage, true);
@@ -185,9 +206,8 @@ Cube PassTextures::Body::divided(size_t number, Cube cube) {
             const double diffuser = white.row(row, 0)[x];
             if (!(diffuser > 0) && seen.row(row, 0)[x] > 0)
                 throw InputError(
-                    pass.where,
-                    fmt::format("pass '{}': no light arrives at pixel {},{}, so it has no reflectance",
-                                pass.name, x, row));
+                    where, fmt::format("{}: no light arrives at pixel {},{}, so it has no reflectance", name,
+                                       x, row));
             if (!(diffuser > 0)) continue;
             for (size_t band = 0; band < bands; ++band) {
                 float& value = cube.values[(static_cast<size_t>(row) * bands + band) * width + x];

@@ -29,9 +29,10 @@ class PassTextures : public TextureLoader {
                  const RenderSettings& settings, Notes& notes, Save save = {});
     ~PassTextures() override;
 
-    /// The target as an image: radiance; reflectance (equal-energy light divided by what a perfect white
-    /// diffuser sends back there; 0 where nothing is seen); irradiance, W·m⁻²·nm⁻¹. Throws InputError where a
-    /// reflectance would divide by no light, naming the pixel.
+    /// The target as an image (six faces, one below the other, where its camera looks all around; a baked
+    /// texture where the settings ask for one): radiance; reflectance (equal-energy light divided by what a
+    /// perfect white diffuser sends back there; 0 where nothing is seen); irradiance, W·m⁻²·nm⁻¹. Throws
+    /// InputError where a reflectance would divide by no light, naming the pixel.
     [[nodiscard]] Cube render();
     /// All that is rendered, in order; the last is the target.
     [[nodiscard]] const std::vector<GraphNode>& graph() const;

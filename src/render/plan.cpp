@@ -23,7 +23,7 @@ template <typename Named>
 std::vector<std::string> namesOf(const std::vector<Named>& items) {
     std::vector<std::string> names;
     for (const Named& item : items)
-        names.push_back(item.name);
+        if (!item.name.empty()) names.push_back(item.name);
     return names;
 }
 
@@ -82,6 +82,10 @@ Material substituted(const Material& material, Substitute substitute) {
     Material worn = material;
     if (substitute == Substitute::none) return worn;
     worn.emission.reset();
+    // A mirror's image is light of its own, no reflectance.
+    if (worn.gloss) worn.gloss->reflects.reset();
+    if (worn.specular) worn.specular->reflects.reset();
+    if (worn.conductor) worn.conductor->reflects.reset();
     if (substitute == Substitute::whiteDiffuser || substitute == Substitute::irradiance) {
         worn = {};
         worn.name = material.name;
@@ -106,6 +110,7 @@ std::vector<std::string> featuresOf(const std::vector<const Material*>& material
                                     bool background) {
     std::set<std::string> features;
     for (const Material* m : materials) {
+        if (reflectionOf(*m)) features.insert("reflects");
         if (m->diffuse) features.insert("diffuse");
         if (m->gloss) features.insert("gloss");
         if (m->emission) features.insert("emission");
@@ -128,7 +133,7 @@ std::vector<std::string> featuresOf(const std::vector<const Material*>& material
 }
 
 /// Kernel switches, from what the world really holds: a feature that it lacks costs no instruction.
-std::vector<std::string> definesOf(const World& world, int samples) {
+std::vector<std::string> definesOf(const World& world, int samples, bool baked) {
     std::set<std::string> defines{fmt::format("SLOTS={}", lanePattern(samples, 1).slots)};
     for (const sd_light& light : world.lights) {
         static constexpr std::array<const char*, 6> switches{
@@ -142,6 +147,9 @@ std::vector<std::string> definesOf(const World& world, int samples) {
     }
     for (const std::string& define : textureDefines(world))
         defines.insert(define);
+    for (const sd_lobe& lobe : world.lobes)
+        if (lobe.mapping != SD_MAP_SURFACE) defines.insert("HAS_MAPPING");
+    if (baked) defines.insert("BAKE");
     return {defines.begin(), defines.end()};
 }
 
@@ -165,7 +173,7 @@ Shot chooseShot(const Scene& scene, const RenderSettings& settings) {
     const Pass* pass = nullptr;
     if (!settings.pass.empty()) {
         pass = &byName(scene.passes, settings.pass, "pass");
-    } else if (settings.camera.empty() && !scene.passes.empty()) {
+    } else if (settings.camera.empty() && !settings.bake && !scene.passes.empty()) {
         pass = &scene.passes.back();
         for (const Pass& each : scene.passes)
             if (each.name == "main") pass = &each;
@@ -187,6 +195,12 @@ Wavelengths gridOf(const Shot& shot, const RenderSettings& settings) {
     return grid;
 }
 
+std::pair<int, int> sizeOf(const Shot& shot, const RenderSettings& settings) {
+    const Camera& camera = shot.scene->cameras.at(shot.camera);
+    if (settings.size) return *settings.size;
+    return shot.pass && shot.pass->size ? *shot.pass->size : std::pair{camera.width, camera.height};
+}
+
 Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library, Notes& notes) {
     const Shot shot = chooseShot(scene, settings);
     TextureLoader textures(*shot.scene, library, notes);
@@ -198,12 +212,63 @@ Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library&
     return makePlan(chooseShot(scene, settings), settings, library, textures, notes);
 }
 
+namespace {
+
+/// The camera's view; for a mirror the view of its mirror image.
+View viewOf(const Shot& shot, const RenderSettings& settings, const FlatScene& flat,
+            std::pair<int, int> size) {
+    const Scene& scene = *shot.scene;
+    const Camera& camera = scene.cameras[shot.camera];
+    const Affine place = placeOf(scene, flat, shot.camera);
+    View view = camera.cube ? makeCubeView(camera, place, settings.cubeFace, size.first)
+                            : makeView(camera, place, size.first, size.second);
+    if (settings.bake) {
+        view.baked = true;
+        view.width = size.first;
+        view.height = size.second;
+    }
+    if (!shot.pass || !shot.pass->mirror) return view;
+    view.before =
+        mirrorPlane(placeOf(scene, *shot.pass->mirror), inverse(view.worldToCamera).point({0, 0, 0}));
+    if (!view.before)
+        throw InputError(shot.pass->where, "pass '" + shot.pass->name +
+                                               "': the camera lies in the plane of the mirror '" +
+                                               scene.nodes[*shot.pass->mirror].name + "'");
+    view.worldToCamera = view.worldToCamera * reflection(*view.before);
+    return view;
+}
+
+/// A light of the colour of a pass: its mean over all pixels.
+Emitter withMeanOf(const Emitter& emitter, TextureLoader& textures) {
+    const SpectralTexture texture = textures.load(*emitter.texture);
+    const size_t bands = texture.nm.size();
+    std::vector<double> mean(bands, 0.0);
+    for (size_t i = 0; i < texture.texels.size(); ++i)
+        mean[i % bands] += texture.texels[i];
+    for (double& value : mean)
+        value =
+            std::max(0.0, value * static_cast<double>(bands) / static_cast<double>(texture.texels.size()));
+    Emitter light = emitter;
+    light.spectrum.curves = {Curve::table(texture.nm, mean)};
+    return light;
+}
+
+/// The surfaces of a node, where they stand.
+std::vector<FlatScene::Object> objectsToBake(const Scene& scene, const Bake& bake) {
+    const Node& node = byName(scene.nodes, bake.node, "node");
+    auto objects = flatten(scene, static_cast<Index>(&node - scene.nodes.data())).objects;
+    if (objects.empty()) throw InputError(node.where, "node '" + bake.node + "' has no surface to bake");
+    return objects;
+}
+
+}  // namespace
+
 Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& library,
               TextureLoader& textures, Notes& notes) {
     const Scene& scene = *shot.scene;
     const Camera& camera = scene.cameras.at(shot.camera);
     Plan plan;
-    plan.as = shot.pass ? shot.pass->as : PassKind::radiance;
+    plan.as = settings.bake ? settings.bake->as : shot.pass ? shot.pass->as : PassKind::radiance;
     plan.cameraName = camera.name;
     plan.passName = shot.pass ? shot.pass->name : "";
     plan.stripBytes = settings.stripBytes;
@@ -215,17 +280,23 @@ Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& l
     if (plan.samples < 1 || plan.samples > maxSamples)
         throw InputError(
             fmt::format("{} samples per pixel are not possible (1…{})", plan.samples, maxSamples));
-    std::pair<int, int> size{camera.width, camera.height};
-    if (shot.pass && shot.pass->size) size = *shot.pass->size;
-    if (settings.size) size = *settings.size;
+    const std::pair<int, int> size = sizeOf(shot, settings);
     checkSize(size.first, size.second);
+    if (camera.cube && !settings.bake && size.first != size.second)
+        throw InputError(camera.where, fmt::format("the faces of a cube camera are square, not {}x{} pixels",
+                                                   size.first, size.second));
 
-    const FlatScene flat = shot.pass ? flatten(scene, *shot.pass) : flatten(scene);
-    plan.view = makeView(camera, placeOf(scene, flat, shot.camera), size.first, size.second);
+    FlatScene flat = shot.pass ? flatten(scene, *shot.pass) : flatten(scene);
+    plan.view = viewOf(shot, settings, flat, size);
+    plan.faces = camera.cube && !settings.bake ? 6 : 1;
+    if (settings.bake) flat.objects = objectsToBake(scene, *settings.bake);
 
     const Detector observer = standardObserver(library);
-    std::vector<LightGroup> groups =
-        groupLights(scene, flat, plan.view, observer, plan.world.lights, isEqualEnergy(settings.substitute));
+    const auto resolved = [&](const Emitter& emitter) {
+        return emitter.texture ? withMeanOf(emitter, textures) : emitter;
+    };
+    std::vector<LightGroup> groups = groupLights(scene, flat, plan.view, observer, resolved,
+                                                 plan.world.lights, isEqualEnergy(settings.substitute));
     if (!isEqualEnergy(settings.substitute)) checkRange(plan.wavelengths, groups, observer, notes);
 
     std::vector<std::uint32_t> number;
@@ -249,15 +320,20 @@ Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& l
                         plan.terms, notes);
     const bool asGiven = settings.substitute == Substitute::none;
     const Emitter* background = asGiven && scene.background ? &*scene.background : nullptr;
-    builder.addBackground(background, background ? absoluteFactor(*background, observer) : 0);
+    const TextureUse* backdrop = background ? backdropOf(scene, shot.pass) : nullptr;
+    if (background && background->texture) background = nullptr;
+    if (backdrop)
+        builder.addBackdrop(*backdrop, scene.background->scale);
+    else
+        builder.addBackground(background, background ? absoluteFactor(*background, observer) : 0);
     for (const Material* material : materials) {
         const Material worn = substituted(*material, settings.substitute);
         builder.add(worn, worn.emission ? absoluteFactor(*worn.emission, observer) : 0);
     }
     addGeometry(plan.world, flat, plan.view, number);
 
-    plan.features = featuresOf(materials, plan.world, background != nullptr);
-    plan.defines = definesOf(plan.world, plan.samples);
+    plan.features = featuresOf(materials, plan.world, background || backdrop);
+    plan.defines = definesOf(plan.world, plan.samples, plan.view.baked);
     return plan;
 }
 

@@ -17,6 +17,7 @@ struct Plan {
     PassKind as = PassKind::radiance;
     std::string cameraName, passName;
     View view;
+    int faces = 1;  ///< 6 where the camera looks all around: one image below the other
     World world;
     std::uint32_t groups = 0;  ///< of lights with one spectrum each
     TermTable terms;           ///< the spectra of all (light, lobe, material) terms on the output's bands
@@ -45,6 +46,9 @@ struct Shot {
 [[nodiscard]] Shot shotOf(const Scene& scene, const Pass& pass);
 /// The bands that it is rendered on.
 [[nodiscard]] Wavelengths gridOf(const Shot& shot, const RenderSettings& settings);
+
+/// Its size in pixels; of a cube camera, a face's.
+[[nodiscard]] std::pair<int, int> sizeOf(const Shot& shot, const RenderSettings& settings);
 
 /// Throws InputError for what the scene asks and this version cannot do ("not yet"), and for limits exceeded.
 [[nodiscard]] Plan makePlan(const Scene& scene, const RenderSettings& settings, const Library& library,

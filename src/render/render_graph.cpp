@@ -38,6 +38,23 @@ void checkBands(const GraphNode& user, const GraphNode& made, const TextureUse& 
     notes.warn(use.where, ranges + ": its end values are held");
 }
 
+/// A planar mirror's image belongs to one picture, pixel by pixel.
+void checkMirror(const GraphNode& user, const GraphNode& made, const TextureUse& use) {
+    if (!made.shot.pass->mirror || use.mapping != TextureMapping::picture) return;
+    if (user.shot.camera != made.shot.camera || user.shot.scene != made.shot.scene)
+        throw InputError(use.where,
+                         fmt::format("pass '{}' shows a mirror to another camera than the picture's "
+                                     "(camera=)",
+                                     made.shot.pass->name));
+    const auto [width, height] = sizeOf(user.shot, user.settings);
+    const auto [mirrorWidth, mirrorHeight] = sizeOf(made.shot, made.settings);
+    if (std::int64_t{width} * mirrorHeight != std::int64_t{mirrorWidth} * height)
+        throw InputError(
+            use.where, fmt::format("pass '{}' shows a mirror in {}x{} pixels, the picture has {}x{}: another "
+                                   "shape (size=)",
+                                   made.shot.pass->name, mirrorWidth, mirrorHeight, width, height));
+}
+
 using Key = std::pair<const Pass*, int>;  ///< and its generation
 
 int lastGeneration(const Pass& pass) {
@@ -88,6 +105,7 @@ std::vector<GraphNode> renderGraph(const Scene& scene, const RenderSettings& set
                 open.push_back(frameOf(shot, generation, with));
                 continue;
             }
+            checkMirror(frame.node, order[found->second], *need.use);
             checkBands(frame.node, order[found->second], *need.use, notes);
             frame.node.needs.push_back({need.pass, found->second});
             ++order[found->second].users;

@@ -24,6 +24,16 @@ enum class Substitute {
     coverage        ///< every surface glows with radiance 1, whatever the light
 };
 
+/// What an image holds: the kinds of a pass (scene.h).
+enum class PassKind;
+
+/// A surface rendered into its own texture's square (spectrad bake).
+struct Bake {
+    std::string node;
+    PassKind as;
+    int gutter = 4;  ///< texels filled around what the surface covers
+};
+
 struct RenderSettings {
     std::optional<Wavelengths> wavelengths;   ///< instead of the scene's
     std::optional<Projection> projection;     ///< instead of the wavelengths' own
@@ -32,6 +42,8 @@ struct RenderSettings {
     std::string camera, pass;                 ///< names; empty: the scene's choice (docs/format.md, "Passes")
     Only only = Only::everything;
     Substitute substitute = Substitute::none;
+    std::optional<Bake> bake;      ///< instead of a picture; the camera is then the eye
+    int cubeFace = 0;              ///< of a camera of type cube: which of its six faces
     std::uint64_t stripBytes = 0;  ///< device memory a strip may take; 0: chosen from the device
 };
 

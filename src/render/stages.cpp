@@ -13,11 +13,12 @@ std::vector<std::string> withDevice(std::vector<std::string> defines, const Devi
     return defines;
 }
 
-/// Coverage depends on the number of sample slots only: the program is shared by all plans that agree on it.
+/// Coverage depends on the number of sample slots, and on what lies on the screen: the program is shared by
+/// all plans that agree on it.
 std::vector<std::string> geometryDefines(const Plan& plan, const Device& device) {
     std::vector<std::string> defines;
     for (const std::string& define : plan.defines)
-        if (define.starts_with("SLOTS=")) defines.push_back(define);
+        if (define.starts_with("SLOTS=") || define == "BAKE") defines.push_back(define);
     return withDevice(defines, device);
 }
 
@@ -41,6 +42,11 @@ sd_frame makeFrame(const Plan& plan, const LanePattern& lanes) {
     frame.pixels_per_slope = plan.view.pixelsPerSlope;
     frame.slope_per_subpixel = static_cast<float>(1 / (SD_SUBPIXEL * plan.view.pixelsPerSlope));
     frame.orthographic = plan.view.orthographic;
+    frame.baked = plan.view.baked;
+    const Affine toWorld = inverse(plan.view.worldToCamera);
+    for (size_t row = 0; row < 3; ++row)
+        for (size_t column = 0; column < 3; ++column)
+            frame.to_world[3 * row + column] = static_cast<float>(toWorld.m[4 * row + column]);
     frame.width = plan.view.width;
     frame.height = plan.view.height;
     frame.pitch = (frame.width + SD_BLOCK - 1) / SD_BLOCK * SD_BLOCK;
@@ -126,6 +132,7 @@ void Stages::transform() {
         .set("normal", normal_.buffer())
         .set("draw", vertexDraw_.buffer())
         .set("draws", draws_.buffer())
+        .set("coordinates", coordinates_.buffer())
         .set("frame", frame_)
         .set("count", vertices_)
         .set("camera", camera_.buffer())

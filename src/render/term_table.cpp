@@ -102,4 +102,9 @@ void TermBuilder::addBackground(const Emitter* background, double factor) {
     endLobe(lobe);
 }
 
+void TermBuilder::addBackdrop(const TextureUse& use, double factor) {
+    beginMaterial();
+    if (only_ == Only::everything) addGlowing(use, factor);
+}
+
 }  // namespace spectrad

@@ -43,6 +43,8 @@ class TermBuilder {
 
     /// Material 0 of the world; without a background it has no terms.
     void addBackground(const Emitter* background, double factor);
+    /// The same with a picture behind everything.
+    void addBackdrop(const TextureUse& use, double factor);
     /// Returns the world's number of the material. Throws InputError for combinations that have no meaning,
     /// and for what is not there yet.
     std::uint32_t add(const Material& material, double emissionFactor);
@@ -87,8 +89,10 @@ class TermBuilder {
     /// Diffuse base under a coat, its terms weighted by `weight` (one factor of the spectrum).
     void addCoatedBase(const Material& material, const Curve& weight, const AngleFunction& through,
                        double meanThrough, double inside);
-    void addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra,
-                   double alpha);
+    void addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra, double alpha,
+                   const std::optional<TextureUse>& reflects);
+    void addReflection(const TextureUse& use, const std::vector<AngleFunction>& fresnel,
+                       const std::vector<Curve>& spectra);
 
     const Wavelengths& grid_;
     const Detector& observer_;

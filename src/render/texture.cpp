@@ -12,19 +12,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace spectrad {
 
 SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& notes) {
     const CubeInfo& info = cube.info;
-    const bool reflectance = use.role == TextureRole::reflectance;
-    if (info.kind != (reflectance ? CubeKind::reflectance : CubeKind::radiance))
+    const bool reflectance = use.role == TextureRole::reflectance,
+               irradiance = use.role == TextureRole::irradiance;
+    const CubeKind wanted = reflectance  ? CubeKind::reflectance
+                            : irradiance ? CubeKind::irradiance
+                                         : CubeKind::radiance;
+    if (info.kind != wanted)
         throw InputError(use.where,
                          fmt::format("{} holds {}, but {}", use.source, name(info.kind),
                                      reflectance ? "a <diffuse> texture is a reflectance (channels T.…, or a "
                                                    "pass with as=\"reflectance\")"
-                                                 : "what glows is a radiance (channels S0.…, or a pass with "
-                                                   "as=\"radiance\")"));
+                                     : irradiance ? "a directional light sends an irradiance"
+                                                  : "what glows is a radiance (channels S0.…, or a pass with "
+                                                    "as=\"radiance\")"));
     const Wavelengths& grid = info.wavelengths;
     const size_t bands = grid.size(), width = static_cast<size_t>(info.width);
     SpectralTexture texture;
@@ -32,19 +38,26 @@ SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& note
     texture.height = info.height;
     texture.nm = grid.nm;
     texture.texels.resize(cube.values.size());
-    std::vector<double> values(bands);
+    // A row at a time, bands after bands as the cube has them: the solver then runs along the row.
+    const bool averages = grid.projection == Projection::slit && bands > 1;
+    const std::optional<MassMatrix> mass = averages ? std::optional(MassMatrix(grid.nm)) : std::nullopt;
+    std::vector<double> values(bands * width), area(bands, 1.0);
+    for (size_t band = 0; averages && band < bands; ++band)
+        area[band] = spectrad::band(grid, band).area();
     size_t clipped = 0;
     for (int row = 0; row < info.height; ++row) {
-        for (size_t x = 0; x < width; ++x) {
-            for (size_t band = 0; band < bands; ++band)
-                values[band] = cube.row(row, band)[x];
-            const std::vector<double> nodes = nodalValues(grid, values);
-            float* texel = texture.texels.data() + (static_cast<size_t>(row) * width + x) * bands;
-            for (size_t band = 0; band < bands; ++band) {
-                if (reflectance && nodes[band] < 0) ++clipped;
-                texel[band] = static_cast<float>(reflectance ? std::max(nodes[band], 0.0) : nodes[band]);
+        const float* averagesOfRow = cube.row(row, 0);
+        for (size_t band = 0; band < bands; ++band)
+            for (size_t x = 0; x < width; ++x)
+                values[band * width + x] = averagesOfRow[band * width + x] * area[band];
+        if (mass) mass->solveAll(values, width);
+        float* texels = texture.texels.data() + static_cast<size_t>(row) * width * bands;
+        for (size_t band = 0; band < bands; ++band)
+            for (size_t x = 0; x < width; ++x) {
+                const double node = values[band * width + x];
+                if (reflectance && node < 0) ++clipped;
+                texels[x * bands + band] = static_cast<float>(reflectance ? std::max(node, 0.0) : node);
             }
-        }
     }
     if (clipped > 0)
         notes.say(fmt::format("{}: {} of {} reflectances came out below zero between the bands: set to zero",

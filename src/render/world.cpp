@@ -26,6 +26,20 @@ View makeView(const Camera& camera, const Affine& toWorld, int width, int height
     return view;
 }
 
+View makeCubeView(const Camera& camera, const Affine& toWorld, int face, int side) {
+    static constexpr std::array<Vec3, 6> along{
+        {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
+    static constexpr std::array<Vec3, 6> up{
+        {{0, 1, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {0, 1, 0}}};
+    const Vec3 eye = (toWorld * camera.toNode).point({0, 0, 0});
+    const auto f = static_cast<size_t>(face);
+    View view;
+    view.width = view.height = side;
+    view.worldToCamera = inverse(Affine::lookAt(eye, eye + along[f], up[f]));
+    view.pixelsPerSlope = 0.5 * side;
+    return view;
+}
+
 namespace {
 
 constexpr size_t most = 0xfffffffe;
@@ -42,6 +56,8 @@ double stretch(const Affine& a) {
 /// nearest.
 double tolerance(const Shape& shape, const Affine& toWorld, const View& view) {
     const double scale = stretch(toWorld), radius = boundingRadius(shape);
+    // Baked, it fills the texture.
+    if (view.baked) return 0.1 * 2 * radius / std::max(view.width, view.height);
     double pixel = 1 / view.pixelsPerSlope;  // orthographic: metres; perspective: metres at a depth of 1 m
     if (!view.orthographic) {
         const double distance = length(view.worldToCamera.point(toWorld.point({0, 0, 0}))) - radius * scale;
@@ -70,9 +86,29 @@ void addDraw(World& world, const Affine& toWorld, const View& view) {
     world.draws.push_back(draw);
 }
 
-void addMesh(World& world, const Mesh& mesh, const Affine& toWorld, const View& view,
+/// A mesh to bake needs coordinates, and none so far out that the rasterizer would clip it.
+void checkCoordinates(const Mesh& mesh, const View& view) {
+    if (mesh.uv.empty())
+        throw InputError("the mesh '" + mesh.name + "' has no texture coordinates to bake into");
+    for (const auto& uv : mesh.uv)
+        if (!(std::abs((uv[0] - 0.5) * view.width) < SD_GUARD) ||
+            !(std::abs((uv[1] - 0.5) * view.height) < SD_GUARD))
+            throw InputError("the mesh '" + mesh.name +
+                             "' has texture coordinates too far outside 0…1 to be baked");
+}
+
+void addMesh(World& world, const Mesh& given, const Affine& toWorld, const View& view,
              std::uint32_t material) {
-    if (mesh.index.empty()) return;
+    if (given.index.empty()) return;
+    Mesh cut;
+    if (view.before) {
+        // Cut with the normals that the whole has.
+        cut =
+            before(given.normal.empty() ? withNormals(given, Normals::smooth) : given, toWorld, *view.before);
+        if (cut.index.empty()) return;
+    }
+    const Mesh& mesh = view.before ? cut : given;
+    if (view.baked) checkCoordinates(mesh, view);
     const size_t first = world.vertexDraw.size();
     if (first + mesh.position.size() > most || world.index.size() / 3 + mesh.triangles() > most)
         throw InputError("the scene has more than " + std::to_string(most) + " triangles or vertices");
@@ -88,7 +124,7 @@ void addMesh(World& world, const Mesh& mesh, const Affine& toWorld, const View& 
         world.position.insert(world.position.end(), p.begin(), p.end());
     for (const auto& n : source->normal)
         world.normal.insert(world.normal.end(), n.begin(), n.end());
-    if (!world.textures.empty()) {
+    if (!world.textures.empty() || view.baked) {
         // A mesh without coordinates shows the texture's lower left corner everywhere.
         if (source->uv.empty()) world.uv.insert(world.uv.end(), 2 * source->position.size(), 0.0f);
         for (const auto& t : source->uv)

@@ -5,10 +5,7 @@
 
 namespace spectrad {
 
-namespace {
-
-/// Transform of a node's own place to the world: its ancestors', outermost first, then its own.
-Affine toWorld(const Scene& scene, Index node) {
+Affine placeOf(const Scene& scene, Index node) {
     static constexpr Index none = ~Index{0};
     std::vector<Index> parent(scene.nodes.size(), none);
     for (Index i = 0; i < scene.nodes.size(); ++i)
@@ -19,6 +16,8 @@ Affine toWorld(const Scene& scene, Index node) {
         result = scene.nodes[at].local * result;
     return result;
 }
+
+namespace {
 
 void checkTransform(const Node& node, const Affine& toWorld) {
     const double volume = toWorld.determinant();
@@ -37,7 +36,7 @@ FlatScene flatten(const Scene& scene, std::optional<Index> root) {
         Affine toWorld;
     };
     FlatScene flat;
-    std::vector<Visit> waiting{{root.value_or(0), toWorld(scene, root.value_or(0))}};
+    std::vector<Visit> waiting{{root.value_or(0), placeOf(scene, root.value_or(0))}};
     while (!waiting.empty()) {
         const Visit visit = waiting.back();
         waiting.pop_back();

@@ -52,9 +52,9 @@ std::vector<ElementRule> makeGrammar() {
         rule("material", "name!", "diffuse1 gloss1 specular1 conductor1 fluorescence emission1"),
         rule("diffuse", "reflectance texture select values roughness" + sampling, "choose"),
         rule("choose", "value! reflectance!"),
-        rule("gloss", "ior! roughness"),
-        rule("specular", "reflectance! roughness"),
-        rule("conductor", "ior! roughness fresnel"),
+        rule("gloss", "ior! roughness reflects"),
+        rule("specular", "reflectance! roughness reflects"),
+        rule("conductor", "ior! roughness fresnel reflects"),
         rule("fluorescence",
              "excitation emission yield strength emission-unit anti-stokes matrix diagonal mask" + sampling),
         rule("emission", "spectrum luminance radiance scale texture filter"),
@@ -72,11 +72,13 @@ std::vector<ElementRule> makeGrammar() {
         rule("torus", "radius tube material"),
         rule("teapot", "size material"),
         rule("light", "name type! position target direction angle blend spectrum!" + amount + " scale"),
-        rule("background", "spectrum! luminance radiance scale"),
+        rule("background", "spectrum luminance radiance scale texture filter mapping"),
         rule("camera", "name type fov sensor focal height look-from look-at up size"),
         rule("detector", "name! observer sensitivity quantum-efficiency lens filter", "channel"),
         rule("channel", "name! filter!"),
-        rule("pass", "name! scene camera of lights size samples wavelengths projection as repeat save"),
+        rule("pass",
+             "name! scene camera of mirror lights size samples wavelengths projection as through display "
+             "luminance repeat save"),
     };
 }
 

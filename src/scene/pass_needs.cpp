@@ -11,12 +11,23 @@ std::vector<const TextureUse*> texturesOf(const Material& material) {
     std::vector<const TextureUse*> uses;
     if (material.diffuse && material.diffuse->texture) uses.push_back(&*material.diffuse->texture);
     if (material.emission && material.emission->texture) uses.push_back(&*material.emission->texture);
+    if (const TextureUse* use = reflectionOf(material)) uses.push_back(use);
     return uses;
+}
+
+const TextureUse* reflectionOf(const Material& material) {
+    if (material.gloss && material.gloss->reflects) return &*material.gloss->reflects;
+    if (material.specular && material.specular->reflects) return &*material.specular->reflects;
+    if (material.conductor && material.conductor->reflects) return &*material.conductor->reflects;
+    return nullptr;
 }
 
 namespace {
 
 bool usesPasses(const Scene& scene) {
+    const auto shines = [](const Light& light) { return light.emitter.texture.has_value(); };
+    if (scene.background && scene.background->texture) return true;
+    if (std::any_of(scene.lights.begin(), scene.lights.end(), shines)) return true;
     return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
         const auto uses = texturesOf(material);
         return std::any_of(uses.begin(), uses.end(), [](const TextureUse* use) { return use->isPass(); });
@@ -47,6 +58,9 @@ std::vector<PassNeed> passesNeeded(const Scene& scene, const Pass* pass) {
         for (const TextureUse* use : texturesOf(scene.materials[material]))
             add(*use);
     };
+    if (const TextureUse* use = backdropOf(scene, pass)) add(*use);
+    for (const Placed& light : flat.lights)
+        if (const auto& texture = scene.lights[light.index].emitter.texture) add(*texture);
     for (const FlatScene::Object& object : flat.objects) {
         for (const ShapeUse& use : object.node->shapes)
             wear(use.material);
@@ -54,6 +68,13 @@ std::vector<PassNeed> passesNeeded(const Scene& scene, const Pass* pass) {
             wear(use.material);
     }
     return needs;
+}
+
+const TextureUse* backdropOf(const Scene& scene, const Pass* pass) {
+    if (!scene.background || !scene.background->texture) return nullptr;
+    const TextureUse& use = *scene.background->texture;
+    const bool itself = pass && !pass->scene && use.isPass() && use.passName() == pass->name;
+    return itself ? nullptr : &use;
 }
 
 void checkPasses(const Scene& scene) {
@@ -80,7 +101,9 @@ void checkPasses(const Scene& scene) {
                 continue;
             }
             const PassNeed need = frame.needs[frame.next++];
-            if (need.pass == frame.pass && scene.passes[need.pass].repeat > 0) continue;
+            // A mirror is cut off at its own plane: what it would show of itself is black.
+            const Pass& needed = scene.passes[need.pass];
+            if (need.pass == frame.pass && (needed.repeat > 0 || needed.mirror)) continue;
             if (state[need.pass] == State::open) {
                 std::vector<std::string> chain;
                 for (const Frame& f : open)

@@ -9,6 +9,11 @@ namespace spectrad {
 
 /// All textures that a material looks up.
 [[nodiscard]] std::vector<const TextureUse*> texturesOf(const Material& material);
+/// What a mirror shows, if the material is one that shows something.
+[[nodiscard]] const TextureUse* reflectionOf(const Material& material);
+
+/// The picture behind everything, if there is one; the pass that it is has none behind itself.
+[[nodiscard]] const TextureUse* backdropOf(const Scene& scene, const Pass* pass);
 
 /// A pass of the same scene that is seen, and the first place where.
 struct PassNeed {

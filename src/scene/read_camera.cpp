@@ -29,8 +29,16 @@ Camera readCamera(Reading& reading, const Element& element) {
     Camera camera;
     camera.where = element.where();
     camera.name = element.text("name");
-    camera.orthographic =
-        element.choice<bool>("type", {{"perspective", false}, {"orthographic", true}}, false);
+    enum class Type { perspective, orthographic, cube };
+    const Type type = element.choice<Type>(
+        "type",
+        {{"perspective", Type::perspective}, {"orthographic", Type::orthographic}, {"cube", Type::cube}},
+        Type::perspective);
+    camera.orthographic = type == Type::orthographic;
+    camera.cube = type == Type::cube;
+    if (camera.cube)
+        for (const char* attribute : {"fov", "sensor", "focal", "height", "look-at", "up"})
+            element.refuse(attribute, "does not belong to a cube camera (it looks all around)");
     if (camera.orthographic) {
         for (const char* attribute : {"fov", "sensor", "focal"})
             element.refuse(attribute, "does not belong to an orthographic camera (its view has a height)");
@@ -52,7 +60,9 @@ Camera readCamera(Reading& reading, const Element& element) {
     camera.toNode = Affine::lookAt(from, at, up);
     if (!camera.toNode.finite()) element.fail("the camera's place is beyond the range of numbers");
 
-    const auto [width, height] = element.pixels("size", {1280, 720});
+    const auto [width, height] =
+        element.pixels("size", camera.cube ? std::pair{512, 512} : std::pair{1280, 720});
+    if (camera.cube && width != height) element.fail("size", "the faces of a cube are square");
     camera.width = width;
     camera.height = height;
     return camera;

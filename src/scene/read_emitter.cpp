@@ -71,11 +71,33 @@ void checkAbsolute(const Element& element, const Spectrum& spectrum, const KindO
 
 }  // namespace
 
+namespace {
+
+/// Stands for the mean of a pass until that is rendered: absolute where a pass holds what the source sends.
+Spectrum spectrumOfPass(const Element& element, const KindOfSource& rules) {
+    Spectrum spectrum;
+    spectrum.text = element.text("spectrum");
+    spectrum.quantity = rules.own;
+    spectrum.relative = rules.own == Quantity::intensity;
+    // A shape until then; an amount may be asked of it.
+    spectrum.curves = {Curve::table({380, 780}, {1, 1})};
+    return spectrum;
+}
+
+}  // namespace
+
 Emitter readEmitter(Reading& reading, const Element& element, SourceKind kind, const std::string& what) {
     const KindOfSource& rules = kindOfSource(kind);
     Emitter emitter;
     emitter.where = element.where();
-    emitter.spectrum = reading.spectrum(element, "spectrum", Role::light);
+    const bool ofPass = element.text("spectrum").starts_with("pass:");
+    emitter.spectrum =
+        ofPass ? spectrumOfPass(element, rules) : reading.spectrum(element, "spectrum", Role::light);
+    if (ofPass) {
+        emitter.texture = readTexture(
+            reading, element,
+            kind == SourceKind::irradiance ? TextureRole::irradiance : TextureRole::radiance, "spectrum");
+    }
     const auto attribute = amountAttribute(element, rules, what);
     emitter.scale = element.number("scale", 1, notNegative);
     if (!attribute) {

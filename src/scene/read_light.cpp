@@ -72,8 +72,15 @@ Light readLight(Reading& reading, const Element& element) {
 }
 
 void readBackground(Reading& reading) {
-    if (const auto background = Element(reading.document, reading.document.root()).child("background"))
-        reading.scene.background = readEmitter(reading, *background, SourceKind::radiance, "the background");
+    if (const auto background = Element(reading.document, reading.document.root()).child("background")) {
+        reading.scene.background = readGlow(reading, *background, "the background");
+        if (!reading.scene.background->texture)
+            background->refuse("mapping", "stands only beside 'texture'");
+        else
+            reading.scene.background->texture->mapping = background->choice<TextureMapping>(
+                "mapping", {{"picture", TextureMapping::picture}, {"cube", TextureMapping::cube}},
+                TextureMapping::picture);
+    }
 }
 
 }  // namespace spectrad

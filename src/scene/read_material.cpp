@@ -34,6 +34,14 @@ Diffuse readDiffuse(Reading& reading, const Element& element) {
     return diffuse;
 }
 
+/// What a mirror shows instead of nothing.
+std::optional<TextureUse> readReflects(Reading& reading, const Element& element) {
+    if (!element.has("reflects")) return std::nullopt;
+    if (element.number("roughness", 0) > 0)
+        element.fail("reflects", "only a mirror (roughness 0) shows an image");
+    return readTexture(reading, element, TextureRole::radiance, "reflects");
+}
+
 /// An index of refraction; `curves` is 1 for a dielectric (n), 2 for a metal (n, k).
 Spectrum readIndex(Reading& reading, const Element& element, size_t curves) {
     Spectrum index = reading.spectrum(element, "ior", Role::index);
@@ -86,13 +94,15 @@ Material readMaterial(Reading& reading, const Element& element) {
         if (kind == "diffuse") {
             material.diffuse = readDiffuse(reading, lobe);
         } else if (kind == "gloss") {
-            material.gloss = {readIndex(reading, lobe, 1), lobe.number("roughness", 0, zeroToOne)};
+            material.gloss = {readIndex(reading, lobe, 1), lobe.number("roughness", 0, zeroToOne),
+                              readReflects(reading, lobe)};
         } else if (kind == "specular") {
             material.specular = {reading.spectrum(lobe, "reflectance", Role::reflectance),
-                                 lobe.number("roughness", 0, zeroToOne)};
+                                 lobe.number("roughness", 0, zeroToOne), readReflects(reading, lobe)};
         } else if (kind == "conductor") {
             material.conductor = {readIndex(reading, lobe, 2), lobe.number("roughness", 0, zeroToOne),
-                                  lobe.choice<bool>("fresnel", {{"exact", false}, {"schlick", true}}, false)};
+                                  lobe.choice<bool>("fresnel", {{"exact", false}, {"schlick", true}}, false),
+                                  readReflects(reading, lobe)};
         } else if (kind == "fluorescence") {
             material.fluorescence.push_back(readFluorescence(reading, lobe));
         } else {

@@ -1,5 +1,6 @@
 // <pass>: what is rendered, and into which file or texture.
 #include "base/text.h"
+#include "scene/amounts.h"
 #include "scene/pass_needs.h"
 #include "scene/reading.h"
 
@@ -54,6 +55,9 @@ void readView(const Reading& reading, const Element& element, Pass& pass) {
     if (element.has("of"))
         pass.of = other ? nameIn(other->nodes, element.text("of"), element, "of", *other)
                         : reading.nodes.find(element.text("of"), element.where("of"));
+    if (element.has("mirror"))
+        pass.mirror = other ? nameIn(other->nodes, element.text("mirror"), element, "mirror", *other)
+                            : reading.nodes.find(element.text("mirror"), element.where("mirror"));
     if (!element.has("lights")) return;
     pass.lights.emplace();
     const std::string text = element.text("lights");
@@ -62,7 +66,38 @@ void readView(const Reading& reading, const Element& element, Pass& pass) {
                                      : reading.lights.find(std::string(name), element.where("lights")));
 }
 
-Pass readPass(const Reading& reading, const Element& element) {
+/// through= a detector, onto display=.
+std::optional<Screen> readScreen(Reading& reading, const Element& element) {
+    if (!element.has("display")) {
+        for (const char* attribute : {"through", "luminance"})
+            element.refuse(attribute, "stands only beside 'display'");
+        return std::nullopt;
+    }
+    if (!element.has("through"))
+        element.fail("display", "needs 'through', the detector that takes the picture which is shown");
+    Screen screen;
+    screen.where = element.where("display");
+    screen.detector =
+        reading.scene.detectors[reading.detectors.find(element.text("through"), element.where("through"))]
+            .sensitivity;
+    screen.primaries = reading.spectrum(element, "display", Role::any);
+    if (screen.primaries.curves.size() != 3)
+        element.fail("display", fmt::format("a display has three primaries, this file has {} (allowed: "
+                                            "displays/..., or a file of three columns)",
+                                            screen.primaries.curves.size()));
+    if (element.has("luminance")) {
+        std::string complaint;
+        const auto amount = parseAmount("luminance", element.text("luminance"), complaint);
+        if (!amount) element.fail("luminance", complaint);
+        if (!(amount->value > 0)) element.fail("luminance", "a display's white is above 0 cd/m2");
+        screen.luminance = amount->value;
+    } else if (screen.primaries.relative) {
+        element.fail("display", "the primaries are relative: say the white's luminance=\"… cd/m2\"");
+    }
+    return screen;
+}
+
+Pass readPass(Reading& reading, const Element& element) {
     Pass pass;
     if (element.has("scene"))
         pass = passOfOther(
@@ -89,6 +124,11 @@ Pass readPass(const Reading& reading, const Element& element) {
                                         {"transmittance", PassKind::transmittance},
                                         {"irradiance", PassKind::irradiance}},
                                        pass.as);
+    if (const auto screen = readScreen(reading, element)) pass.screen = screen;
+    if (pass.screen && pass.as != PassKind::radiance)
+        element.fail("display", "a display shows radiances (as=\"radiance\")");
+    if (pass.mirror && pass.as != PassKind::radiance)
+        element.fail("mirror", "a mirror shows radiances (as=\"radiance\")");
     if (element.has("repeat")) pass.repeat = element.integer("repeat", 1, 1, maxGenerations);
     if (element.has("save")) {
         const std::string file = element.text("save");
@@ -117,16 +157,68 @@ std::string_view nameOf(PassKind kind) {
     return "radiance";
 }
 
+PassKind kindFor(TextureRole role) {
+    return role == TextureRole::reflectance  ? PassKind::reflectance
+           : role == TextureRole::irradiance ? PassKind::irradiance
+                                             : PassKind::radiance;
+}
+
 /// A pass must hold what the place where it is used is made of.
-void checkType(const Reading& reading, const TextureUse& use) {
-    if (!use.isPass()) return;
+const Pass& checkedType(const Reading& reading, const TextureUse& use) {
     const Pass& pass = reading.scene.passes[reading.passes.find(use.passName(), use.where)];
-    const bool reflectance = use.role == TextureRole::reflectance;
-    if (pass.as == (reflectance ? PassKind::reflectance : PassKind::radiance)) return;
+    if (pass.as == kindFor(use.role)) return pass;
     throw InputError(use.where,
-                     fmt::format("pass '{}' is as=\"{}\", {}", pass.name, nameOf(pass.as),
-                                 reflectance ? "but a <diffuse> texture is a reflectance (as=\"reflectance\")"
-                                             : "but what glows is a radiance (as=\"radiance\")"));
+                     fmt::format("pass '{}' is as=\"{}\", but {}", pass.name, nameOf(pass.as),
+                                 use.role == TextureRole::reflectance
+                                     ? "a <diffuse> texture is a reflectance (as=\"reflectance\")"
+                                 : use.role == TextureRole::irradiance
+                                     ? "a directional light sends an irradiance (as=\"irradiance\")"
+                                     : "what glows is a radiance (as=\"radiance\")"));
+}
+
+bool looksAround(const Reading& reading, const Pass& pass) {
+    const Scene& shown = pass.scene ? *pass.scene : reading.scene;
+    return pass.camera < shown.cameras.size() && shown.cameras[pass.camera].cube;
+}
+
+/// What a mirror or the background shows must be an image of the kind that it looks up.
+void checkMapping(const Reading& reading, TextureUse& use, bool mirror) {
+    if (!use.isPass()) {
+        if (mirror) use.mapping = TextureMapping::cube;
+        return;
+    }
+    const Pass& pass = checkedType(reading, use);
+    const bool around = looksAround(reading, pass);
+    if (mirror) {
+        if (!around && !pass.mirror)
+            throw InputError(use.where,
+                             fmt::format("pass '{}' is no image for a mirror (allowed: a pass with "
+                                         "mirror=, or with a camera of type cube)",
+                                         pass.name));
+        use.mapping = around ? TextureMapping::cube : TextureMapping::picture;
+    } else if (around != (use.mapping == TextureMapping::cube)) {
+        throw InputError(use.where, fmt::format("pass '{}' {} (mapping=\"{}\")", pass.name,
+                                                around ? "looks all around" : "is one picture, not six faces",
+                                                around ? "cube" : "picture"));
+    }
+}
+
+void checkUses(Reading& reading) {
+    Scene& scene = reading.scene;
+    for (Material& material : scene.materials) {
+        for (const TextureUse* use : texturesOf(material))
+            if (use->isPass()) static_cast<void>(checkedType(reading, *use));
+        if (material.gloss && material.gloss->reflects)
+            checkMapping(reading, *material.gloss->reflects, true);
+        if (material.specular && material.specular->reflects)
+            checkMapping(reading, *material.specular->reflects, true);
+        if (material.conductor && material.conductor->reflects)
+            checkMapping(reading, *material.conductor->reflects, true);
+    }
+    for (const Light& light : scene.lights)
+        if (light.emitter.texture) static_cast<void>(checkedType(reading, *light.emitter.texture));
+    if (scene.background && scene.background->texture)
+        checkMapping(reading, *scene.background->texture, false);
 }
 
 }  // namespace
@@ -141,9 +233,7 @@ void readPasses(Reading& reading) {
         reading.passes.add(pass.name, static_cast<Index>(reading.scene.passes.size()), pass.where);
         reading.scene.passes.push_back(std::move(pass));
     }
-    for (const Material& material : reading.scene.materials)
-        for (const TextureUse* use : texturesOf(material))
-            checkType(reading, *use);
+    checkUses(reading);
     checkPasses(reading.scene);
 }
 

@@ -66,16 +66,16 @@ TextureUse readPicture(Reading& reading, const Element& element, const char* att
     return use;
 }
 
-TextureUse readTexture(Reading& reading, const Element& element, TextureRole role) {
+TextureUse readTexture(Reading& reading, const Element& element, TextureRole role, const char* attribute) {
     TextureUse use;
     if (role == TextureRole::reflectance)
-        use = readSampling(element, "texture");
-    else
+        use = readSampling(element, attribute);
+    else if (element.has("texture"))
         use.filter = readFilter(element);  // scale= is the radiance's factor there
     use.role = role;
-    use.where = element.where("texture");
-    use.source = element.text("texture");
-    if (!use.isPass()) use.source = reading.file(element, "texture").string();
+    use.where = element.where(attribute);
+    use.source = element.text(attribute);
+    if (!use.isPass()) use.source = reading.file(element, attribute).string();
     return use;
 }
 

@@ -93,7 +93,8 @@ enum class SourceKind { intensity, irradiance, radiance };
                                   const std::string& what);
 
 /// texture="file | pass:NAME" with its filter=.
-[[nodiscard]] TextureUse readTexture(Reading& reading, const Element& element, TextureRole role);
+[[nodiscard]] TextureUse readTexture(Reading& reading, const Element& element, TextureRole role,
+                                     const char* attribute = "texture");
 /// A picture that an attribute names, and how it lies on the surface.
 [[nodiscard]] TextureUse readPicture(Reading& reading, const Element& element, const char* attribute);
 [[nodiscard]] Select readSelect(Reading& reading, const Element& element);

@@ -44,8 +44,11 @@ struct Amount {
 };
 
 /// What a texture's values must be where it is used.
-enum class TextureRole { reflectance, radiance };
+enum class TextureRole { reflectance, radiance, irradiance };
 enum class TextureFilter { nearest, bilinear, mip };
+/// How a place finds its texel: by the surface's coordinates, by its pixel in the picture, or by a direction
+/// in six faces (Camera::cube).
+enum class TextureMapping { surface, picture, cube };
 /// An image on a surface: where it comes from, and how it lies on the surface's texture coordinates.
 struct TextureUse {
     std::string source;  ///< file name, or "pass:NAME"
@@ -55,6 +58,7 @@ struct TextureUse {
     std::array<double, 2> offset{0, 0}, scale{1, 1};
     double rotateDegrees = 0;
     TextureRole role = TextureRole::reflectance;
+    TextureMapping mapping = TextureMapping::surface;
     SourceLocation where;
 
     [[nodiscard]] bool isPass() const { return source.starts_with("pass:"); }
@@ -68,7 +72,8 @@ struct Emitter {
         amount;  ///< nothing: the spectrum counts as it stands, in the light's own unit per nm
     double scale = 1;
     SourceLocation where;
-    std::optional<TextureUse> texture{};  ///< instead of the spectrum: radiances from place to place × scale
+    /// Instead of the spectrum: radiances from place to place × scale; of a light, their mean.
+    std::optional<TextureUse> texture{};
 };
 
 // ---- materials
@@ -96,15 +101,18 @@ struct Diffuse {
 struct Gloss {
     Spectrum ior;
     double roughness = 0;
+    std::optional<TextureUse> reflects{};  ///< of a mirror (roughness 0): what it shows
 };
 struct Specular {
     Spectrum reflectance;  ///< at normal incidence
     double roughness = 0;
+    std::optional<TextureUse> reflects{};  ///< of a mirror (roughness 0): what it shows
 };
 struct Conductor {
     Spectrum ior;  ///< two curves, n and k
     double roughness = 0;
     bool schlick = false;
+    std::optional<TextureUse> reflects{};  ///< of a mirror (roughness 0): what it shows
 };
 struct Fluorescence {
     std::optional<Spectrum> excitation, emission;
@@ -166,6 +174,7 @@ struct Light {
 struct Camera {
     std::string name;
     bool orthographic = false;
+    bool cube = false;               ///< looks all around: six square faces, `width` pixels each
     double fovDegrees = 40;          ///< vertical
     double viewHeight = 1;           ///< orthographic, metres
     Affine toNode;                   ///< camera space (looks down −z, y up) to the node's space, rigid
@@ -181,17 +190,26 @@ struct DetectorUse {
 
 enum class PassKind { radiance, reflectance, transmittance, irradiance };
 struct Scene;
+/// A camera and a display between a scene and its picture.
+struct Screen {
+    Spectrum detector;     ///< takes the picture
+    Spectrum primaries;    ///< three curves, radiances of the display's red, green and blue at full drive
+    double luminance = 0;  ///< cd/m² of all three together; 0: as they are
+    SourceLocation where;
+};
 struct Pass {
     std::string name;
     std::shared_ptr<const Scene> scene;  ///< another file's; camera, of and lights are then its own
     std::optional<Index> base;           ///< then: the pass of that scene from which this one was made
     Index camera = 0;
     std::optional<Index> of;                   ///< node
+    std::optional<Index> mirror;               ///< a node: what its x–y plane mirrors
     std::optional<std::vector<Index>> lights;  ///< only these count, wherever they stand
     std::optional<std::pair<int, int>> size;
     std::optional<int> samples;
     std::optional<Wavelengths> wavelengths;
     PassKind as = PassKind::radiance;
+    std::optional<Screen> screen;  ///< the radiance is that of a display which shows it
     int repeat = 0;    ///< generations, each of which sees the one before as its own texture; 0: not said
     std::string save;  ///< file to write as well; may be empty
     SourceLocation where;
@@ -231,5 +249,7 @@ struct FlatScene {
 [[nodiscard]] FlatScene flatten(const Scene& scene, std::optional<Index> root = std::nullopt);
 /// What a pass shows: its subtree, with the lights inside it or those it names.
 [[nodiscard]] FlatScene flatten(const Scene& scene, const Pass& pass);
+/// A node's own place in the world.
+[[nodiscard]] Affine placeOf(const Scene& scene, Index node);
 
 }  // namespace spectrad

@@ -22,4 +22,26 @@ void MassMatrix::solve(std::span<double> x) const {
     }
 }
 
+void MassMatrix::solveAll(std::span<double> x, size_t count) const {
+    const size_t nodes = inverse_.size();
+    for (size_t j = 1; j < nodes; ++j) {
+        const double factor = off_[j - 1] * inverse_[j - 1];
+        const double* before = x.data() + (j - 1) * count;
+        double* here = x.data() + j * count;
+        for (size_t i = 0; i < count; ++i)
+            here[i] -= factor * before[i];
+    }
+    for (size_t j = nodes; j-- > 0;) {
+        double* here = x.data() + j * count;
+        const double* after = here + count;
+        const double off = j + 1 < nodes ? off_[j] : 0, inverse = inverse_[j];
+        if (j + 1 < nodes)
+            for (size_t i = 0; i < count; ++i)
+                here[i] = (here[i] - off * after[i]) * inverse;
+        else
+            for (size_t i = 0; i < count; ++i)
+                here[i] *= inverse;
+    }
+}
+
 }  // namespace spectrad

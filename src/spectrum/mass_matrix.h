@@ -17,6 +17,9 @@ class MassMatrix {
     explicit MassMatrix(std::span<const double> nm);
     /// Replaces moments ∫ L h_j dλ by the values at the nodes of the piecewise-linear L that has them.
     void solve(std::span<double> moments) const;
+    /// The same for `count` curves at once, moments[node * count + curve]; each gets the very bits of
+    /// solve().
+    void solveAll(std::span<double> moments, size_t count) const;
 
   private:
     std::vector<double> off_;      ///< ∫ h_j h_{j+1} = d_j / 6

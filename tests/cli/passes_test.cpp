@@ -119,3 +119,31 @@ TEST_CASE("what a pass saves never replaces the result, and a cycle is one line 
                  "cycle.xml:5:26: passes need each other: paper -> paper");
     CHECK_FALSE(std::filesystem::exists(folder / "cycle.exr"));
 }
+
+TEST_CASE("bake writes a texture that a later scene wears") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    const std::string scene = R"(<scene version="1"><wavelengths from="400" to="700" step="50"/>
+  <material name="m"><diffuse )";
+    const std::string rest = R"(/></material><node name="wall"><plane size="2 1" material="m"/></node>
+  <light type="directional" direction="0 0 -1" spectrum="illuminants/D65" illuminance="100 lx"/>
+  <camera type="orthographic" height="1" look-from="0 0 5" look-at="0 0 0" size="20x10"/></scene>)";
+    folder.write("paint.xml", scene + "reflectance=\"400:0.2 700:0.8\"" + rest);
+    folder.write("print.xml", scene + "texture=\"wall.exr\"" + rest);
+    REQUIRE(run(folder, {"bake", "paint.xml", "--node", "wall", "-o", "wall.exr", "--as", "reflectance",
+                         "--size", "8x4", "-q"})
+                .code == 0);
+    CHECK(cubeIn(folder, "wall.exr").info.kind == spectrad::CubeKind::reflectance);
+    REQUIRE(run(folder, {"render", "paint.xml", "-q"}).code == 0);
+    REQUIRE(run(folder, {"render", "print.xml", "-q"}).code == 0);
+    const spectrad::Cube paint = cubeIn(folder, "paint.exr"), print = cubeIn(folder, "print.exr");
+    double worst = 0;
+    for (size_t i = 0; i < paint.values.size(); ++i)
+        worst = std::max<double>(worst, std::abs(print.values[i] / paint.values[i] - 1));
+    CHECK(worst < 1e-5);
+    requireError(run(folder, {"bake", "paint.xml", "--node", "wal", "-o", "x.exr"}), 1,
+                 "the scene has no node 'wal' (did you mean 'wall'?)");
+    requireError(run(folder, {"bake", "paint.xml", "--node", "wall", "-o", "x.exr", "--as", "albedo"}), 2,
+                 "--as: 'albedo' is not known");
+    CHECK_FALSE(std::filesystem::exists(folder / "x.exr"));
+}

@@ -105,6 +105,19 @@ TEST_CASE("kernels agree with their scalar twins bit for bit, on every device") 
     }
 }
 
+TEST_CASE("kernels that bake, into the square of texture coordinates, agree with their twins") {
+    for (const DeviceInfo& info : listDevices()) {
+        const Device device = Device::open(info.number);
+        for (bool orthographic : {false, true}) {
+            CAPTURE(info.name, orthographic);
+            Plan plan = randomPlan(5, 4, orthographic, 100, 24);
+            plan.view.baked = true;
+            plan.defines.emplace_back("BAKE");
+            compare(device, plan);
+        }
+    }
+}
+
 TEST_CASE("kernels agree with their twins on adversarial triangles") {
     const Device device = Device::open(std::nullopt);
     for (unsigned seed = 1; seed <= 6; ++seed) {

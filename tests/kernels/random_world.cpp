@@ -32,7 +32,8 @@ void addLobe(Plan& plan, int type, std::uint32_t& term, double alpha, std::uint3
     lobe.multiple = 0.3f;
     lobe.alpha = static_cast<float>(alpha);
     lobe.mean_through = 0.9f;
-    const size_t tables = type == SD_LOBE_FACETS                                ? 1 + 2 * functions
+    const size_t tables = type == SD_LOBE_REFLECTION                            ? functions
+                          : type == SD_LOBE_FACETS                              ? 1 + 2 * functions
                           : type == SD_LOBE_EMISSION || type == SD_LOBE_DIFFUSE ? 0
                                                                                 : 1;
     for (size_t t = 0; t < tables; ++t) {
@@ -44,10 +45,13 @@ void addLobe(Plan& plan, int type, std::uint32_t& term, double alpha, std::uint3
     const std::uint32_t blocks = type == SD_LOBE_FACETS  ? functions + (multipleApart ? 1 : 0)
                                  : type == SD_LOBE_ROUGH ? 2
                                                          : 1;
-    term += type == SD_LOBE_EMISSION ? 1 : blocks * plan.groups;
+    constexpr std::uint32_t imageBands = 4;
+    term += type == SD_LOBE_REFLECTION ? functions * imageBands
+            : type == SD_LOBE_EMISSION ? 1
+                                       : blocks * plan.groups;
 }
 
-void addMaterials(Plan& plan) {
+void addMaterials(Plan& plan, bool backdrop) {
     World& world = plan.world;
     std::uint32_t terms = 0;
     const auto begin = [&] {
@@ -113,6 +117,27 @@ void addMaterials(Plan& plan) {
         world.lobes.back().steps = 1;
         end(term + 3);
     }
+    // Mirrors that show six faces, or the picture's own place; and six faces behind everything.
+    Texels faces{3, 18, 4, {}};
+    for (int i = 0; i < 3 * 18 * 4; ++i)
+        faces.texels.push_back(static_cast<float>((i * 53 % 97) / 90.0));
+    const sd_uint facesNumber = addTexels(world, faces, {});
+    for (const sd_uint mapping : {SD_MAP_CUBE, SD_MAP_PICTURE}) {
+        term = 0;
+        begin(), addLobe(plan, SD_LOBE_REFLECTION, term, 0, 2);
+        world.lobes.back().texture = facesNumber;
+        world.lobes.back().mapping = mapping;
+        world.lobes.back().steps = 1;
+        end(term);
+    }
+    if (backdrop) {
+        world.lobes[0].texture = facesNumber;
+        world.lobes[0].mapping = SD_MAP_CUBE;
+        world.lobes[0].steps = 1;
+        world.materials[0].first_term = terms;
+        world.materials[0].terms = 4;
+        terms += 4;
+    }
     plan.terms.bands = 7;
     Random random(99);
     for (std::uint32_t t = 0; t < terms; ++t) {
@@ -148,19 +173,28 @@ Plan emptyPlan(int samples, bool orthographic, int width, int height) {
     plan.view.orthographic = orthographic;
     plan.view.width = width;
     plan.view.height = height;
+    plan.view.worldToCamera = Affine::rotation({1, 2, 3}, 40);
     plan.view.pixelsPerSlope = orthographic ? height / 4.0 : height * 0.9;
     plan.wavelengths.nm = {400, 450, 500, 550, 600, 650, 700};
-    plan.defines = {
-        "HAS_COATED",  "HAS_FACETS",        "HAS_ROUGH",
-        "HAS_TEXTURE", "HAS_UNIFORM",       "HAS_POINT",
-        "HAS_MIP",     "HAS_TEXTURE_CURVE", "HAS_TEXTURE_PLACE",
-        "HAS_SPOT",    "HAS_DIRECTIONAL",   "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
+    plan.defines = {"HAS_COATED",
+                    "HAS_FACETS",
+                    "HAS_ROUGH",
+                    "HAS_TEXTURE",
+                    "HAS_UNIFORM",
+                    "HAS_POINT",
+                    "HAS_MIP",
+                    "HAS_TEXTURE_CURVE",
+                    "HAS_TEXTURE_PLACE",
+                    "HAS_MAPPING",
+                    "HAS_SPOT",
+                    "HAS_DIRECTIONAL",
+                    "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
     sd_draw draw{};
     draw.to_camera[0] = draw.to_camera[5] = draw.to_camera[10] = 1;
     draw.normal[0] = draw.normal[4] = draw.normal[8] = 1;
     plan.world.draws.push_back(draw);
     plan.groups = 2;
-    addMaterials(plan);
+    addMaterials(plan, !orthographic);
     addLights(plan.world);
     return plan;
 }

@@ -13,6 +13,11 @@ sd_frame frameOf(const Plan& plan) {
     frame.pixels_per_slope = plan.view.pixelsPerSlope;
     frame.slope_per_subpixel = static_cast<float>(1 / (SD_SUBPIXEL * plan.view.pixelsPerSlope));
     frame.orthographic = plan.view.orthographic;
+    frame.baked = plan.view.baked;
+    const Affine toWorld = inverse(plan.view.worldToCamera);
+    for (size_t row = 0; row < 3; ++row)
+        for (size_t column = 0; column < 3; ++column)
+            frame.to_world[3 * row + column] = static_cast<float>(toWorld.m[4 * row + column]);
     frame.width = plan.view.width;
     frame.height = plan.view.height;
     frame.pitch = (frame.width + SD_BLOCK - 1) / SD_BLOCK * SD_BLOCK;
@@ -37,8 +42,12 @@ Vertices transform(const World& world, const sd_frame& frame) {
                 std::fma(n[0], world.normal[3 * v],
                          std::fma(n[1], world.normal[3 * v + 1], n[2] * world.normal[3 * v + 2])));
         }
-        const double depth = -p[2], reach = frame.orthographic ? 1.0 : depth;
-        const double sx = p[0] * frame.pixels_per_slope, sy = -p[1] * frame.pixels_per_slope,
+        const bool flat = frame.orthographic || frame.baked;
+        const double depth = frame.baked ? 1.0 : -p[2], reach = flat ? 1.0 : depth;
+        const double sx = frame.baked ? (double{world.uv[2 * v]} - 0.5) * frame.width
+                                      : p[0] * frame.pixels_per_slope,
+                     sy = frame.baked ? (0.5 - double{world.uv[2 * v + 1]}) * frame.height
+                                      : -p[1] * frame.pixels_per_slope,
                      guard = SD_GUARD * reach;
         sd_vertex s{};
         s.outside = (depth < static_cast<double>(SD_NEAR) ? SD_OUT_NEAR : 0) |

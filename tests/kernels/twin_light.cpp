@@ -42,6 +42,7 @@ struct SurfaceOf {
     Real cosView;
     Real u, v;
     Real ux, vx, uy, vy;  // change from pixel to pixel
+    Real x, y;            // the sample, SD_SUBPIXEL-ths of a pixel from the image's centre
 };
 
 template <typename Real>
@@ -65,6 +66,10 @@ SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd
     for (size_t k = 0; k < 3; ++k) {
         u[k] = frame.orthographic ? p[k][0] - rx : std::fma(rx, p[k][2], p[k][0]);
         v[k] = frame.orthographic ? p[k][1] - ry : std::fma(ry, p[k][2], p[k][1]);
+        if (!frame.baked) continue;
+        const float* c = world.uv.data() + 2 * size_t{world.index[3 * size_t{triangle} + k]};
+        u[k] = (c[0] - Real(0.5)) * static_cast<Real>(frame.width * SD_SUBPIXEL) - x;
+        v[k] = (Real(0.5) - c[1]) * static_cast<Real>(frame.height * SD_SUBPIXEL) - y;
     }
     Real b0 = std::fma(u[1], v[2], -(u[2] * v[1])), b1 = std::fma(u[2], v[0], -(u[0] * v[2])),
          b2 = std::fma(u[0], v[1], -(u[1] * v[0]));
@@ -79,6 +84,7 @@ SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd
         b0 = b1 = b2 = Real(1.0) / 3;
     }
     SurfaceOf<Real> s{};
+    s.x = x, s.y = y;
     s.position = {mixed(b0, p[0][0], b1, p[1][0], b2, p[2][0]), mixed(b0, p[0][1], b1, p[1][1], b2, p[2][1]),
                   mixed(b0, p[0][2], b1, p[1][2], b2, p[2][2])};
     const auto fromFirst = [&](size_t i) {
@@ -92,7 +98,8 @@ SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd
     const VectorOf<Real> face = crossed(e1, e2);
     const Real seen = dot(face, s.view), along = dot(face, normal);
     normal = unit(normal);
-    s.normal = scaled(normal, std::copysign(Real(1.0), seen) * std::copysign(Real(1.0), along));
+    s.normal = frame.baked ? normal
+                           : scaled(normal, std::copysign(Real(1.0), seen) * std::copysign(Real(1.0), along));
     s.cosView = std::fmax(dot(s.normal, s.view), Real(1e-5f));
     if (!world.uv.empty()) {
         const auto t = corners(world.uv, 2);
@@ -114,6 +121,11 @@ SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd
         };
         s.ux = change(alongX, s.u, 0), s.vx = change(alongX, s.v, 1);
         s.uy = change(alongY, s.u, 0), s.vy = change(alongY, s.v, 1);
+        if (frame.baked) {
+            s.ux = Real(1.0) / static_cast<Real>(frame.width),
+            s.vy = Real(1.0) / static_cast<Real>(frame.height);
+            s.vx = s.uy = 0;
+        }
     }
     return s;
 }
@@ -158,10 +170,59 @@ Real arriving(const sd_light& light, VectorOf<Real> position, VectorOf<Real>& to
     return square == Real(0.0) ? Real(0.0) : strength;
 }
 
+template <typename Real>
+SurfaceOf<Real> byPixel(SurfaceOf<Real> s, const sd_frame& frame) {
+    s.u = s.x / static_cast<Real>(frame.width * SD_SUBPIXEL) + Real(0.5);
+    s.v = Real(0.5) - s.y / static_cast<Real>(frame.height * SD_SUBPIXEL);
+    return s;
+}
+
+template <typename Real>
+SurfaceOf<Real> byDirection(SurfaceOf<Real> s, VectorOf<Real> d, const sd_frame& frame, int side) {
+    std::array<Real, 3> w{};
+    for (size_t row = 0; row < 3; ++row)
+        w[row] = std::fma(d.z, Real(frame.to_world[3 * row + 2]),
+                          std::fma(d.y, Real(frame.to_world[3 * row + 1]), d.x * frame.to_world[3 * row]));
+    const Real ax = std::fabs(w[0]), ay = std::fabs(w[1]), az = std::fabs(w[2]);
+    const size_t axis = ax >= ay && ax >= az ? 0 : ay >= az ? 1 : 2;
+    const bool below = w[axis] < 0;
+    const Real right = axis == 0 ? (below ? -w[2] : w[2]) : axis == 1 ? w[0] : below ? w[0] : -w[0];
+    const Real up = axis != 1 ? w[1] : below ? -w[2] : w[2];
+    const Real size = std::fabs(w[axis]);
+    const Real halfBySize = Real(0.5) / (size == 0 ? Real(1.0) : size);
+    const Real border = Real(0.5) / static_cast<Real>(side);
+    const Real face = static_cast<Real>(2 * axis) + (below ? Real(1.0) : Real(0.0));
+    const Real down = std::clamp(Real(0.5) - up * halfBySize, border, Real(1.0) - border);
+    s.u = std::clamp(std::fma(right, halfBySize, Real(0.5)), border, Real(1.0) - border);
+    s.v = Real(1.0) - (face + down) * Real(1.0f / 6.0f);
+    return s;
+}
+
+/// Where the image behind everything is looked up.
+template <typename Real>
+SurfaceOf<Real> backdropAt(const World& world, const sd_lobe& lobe, const sd_frame& frame, Real x, Real y) {
+    SurfaceOf<Real> s{};
+    s.x = x, s.y = y;
+    if (lobe.mapping != SD_MAP_CUBE) return byPixel(s, frame);
+    VectorOf<Real> ray{0, 0, -1};
+    if (!frame.orthographic) ray.x = x * frame.slope_per_subpixel, ray.y = -(y * frame.slope_per_subpixel);
+    return byDirection(s, ray, frame, world.textures[lobe.texture - 1].width);
+}
+
+template <typename Real>
+SurfaceOf<Real> mirroredAt(const World& world, const sd_lobe& lobe, const sd_frame& frame,
+                           const SurfaceOf<Real>& s) {
+    if (lobe.mapping != SD_MAP_CUBE) return byPixel(s, frame);
+    const Real twice = Real(2.0) * dot(s.normal, s.view);
+    const VectorOf<Real> d{std::fma(twice, s.normal.x, -s.view.x), std::fma(twice, s.normal.y, -s.view.y),
+                           std::fma(twice, s.normal.z, -s.view.z)};
+    return byDirection(s, d, frame, world.textures[lobe.texture - 1].width);
+}
+
 /// Calls add(call, term, g) for everything that lobes and lights add to one sample; `call` orders the
 /// additions.
 template <typename Real>
-void shade(const Plan& plan, const sd_material& material, const SurfaceOf<Real>& s,
+void shade(const Plan& plan, const sd_frame& frame, const sd_material& material, const SurfaceOf<Real>& s,
            const std::function<void(size_t, std::uint32_t, Real)>& add) {
     const World& world = plan.world;
     const std::uint32_t groups = plan.groups;
@@ -171,13 +232,13 @@ void shade(const Plan& plan, const sd_material& material, const SurfaceOf<Real>&
         constexpr size_t callsALight = 64;
         const auto samples = static_cast<Real>(plan.samples);
         /// Terms of a painted lobe from `term` on; returns how many blocks of light groups they are.
-        const auto painted = [&](size_t base, std::uint32_t term, Real g, int steps, bool squared,
-                                 Real inside, std::uint32_t stride) {
+        const auto paintedAt = [&](const SurfaceOf<Real>& at, size_t base, std::uint32_t term, Real g,
+                                   int steps, bool squared, Real inside, std::uint32_t stride) {
             const sd_texture& t = world.textures[lobe.texture - 1];
             std::uint32_t block = 0;
             for (int band = 0; band < t.bands; ++band) {
-                const Real here = texel(world, t, s, samples, band),
-                           next = band + 1 < t.bands ? texel(world, t, s, samples, band + 1) : here;
+                const Real here = texel(world, t, at, samples, band),
+                           next = band + 1 < t.bands ? texel(world, t, at, samples, band + 1) : here;
                 for (int k = 0; k < (band + 1 < t.bands ? steps : 1); ++k, ++block) {
                     const Real rho =
                         k == 0 ? here
@@ -189,6 +250,10 @@ void shade(const Plan& plan, const sd_material& material, const SurfaceOf<Real>&
                 }
             }
             return block;
+        };
+        const auto painted = [&](size_t base, std::uint32_t term, Real g, int steps, bool squared,
+                                 Real inside, std::uint32_t stride) {
+            return paintedAt(s, base, term, g, steps, squared, inside, stride);
         };
         const auto paint = [&](size_t base, std::uint32_t term, Real g, std::uint32_t stride) {
             if (lobe.strength != 0) g = g * texel(world, world.textures[lobe.strength - 1], s, samples, 0);
@@ -207,6 +272,15 @@ void shade(const Plan& plan, const sd_material& material, const SurfaceOf<Real>&
                         groups);
             }
         };
+        if (lobe.type == SD_LOBE_REFLECTION) {
+            const auto bands = static_cast<std::uint32_t>(world.textures[lobe.texture - 1].bands);
+            for (std::uint32_t f = 0; f < lobe.functions; ++f)
+                paintedAt(mirroredAt(world, lobe, frame, s), call + f * bands, lobe.term + f * bands,
+                          lookUp(world.tables.data() + lobe.table + f * SD_CELLS, cellOf(s.cosView)), 1,
+                          false, 0, 1);
+            call += callsALight;
+            continue;
+        }
         if (lobe.type == SD_LOBE_EMISSION) {
             paint(call, lobe.term, Real(1.0), 1);
             call += callsALight;
@@ -339,16 +413,26 @@ BlockOf<Real> light(const Plan& plan, const Vertices& vertices, const sd_frame& 
                         adds.try_emplace(call, term, std::vector<Real>(group, Real(0.0))).first->second;
                     entry.second[i] = g;
                 };
-                if (id == 0xffffffffu) {
-                    if (material.terms > 0) add(0, 0, Real(1.0));
-                    continue;
-                }
                 const size_t slot = (lane + i) % slots;
                 const int sx = (blockColumn * SD_BLOCK + static_cast<int>(x)) * 256 - frame.width * 128 +
                                lanes.slotX[slot];
                 const int sy = row * 256 - frame.height * 128 + lanes.slotY[slot];
+                if (id == 0xffffffffu) {
+                    const sd_lobe& behind = world.lobes[material.first_lobe];
+                    if (material.terms > 0 && behind.texture != 0) {
+                        const sd_texture& t = world.textures[behind.texture - 1];
+                        const auto at = backdropAt<Real>(world, behind, frame, static_cast<Real>(sx),
+                                                         static_cast<Real>(sy));
+                        for (int band = 0; band < t.bands; ++band)
+                            add(static_cast<size_t>(band), static_cast<std::uint32_t>(band),
+                                texel(world, t, at, static_cast<Real>(plan.samples), band));
+                    } else if (material.terms > 0) {
+                        add(0, 0, Real(1.0));
+                    }
+                    continue;
+                }
                 shade<Real>(
-                    plan, material,
+                    plan, frame, material,
                     surfaceAt<Real>(world, vertices, frame, id, static_cast<Real>(sx), static_cast<Real>(sy)),
                     add);
             }
