@@ -1,0 +1,89 @@
+// Pictures as textures: a colour that becomes a reflectance at 10 nm steps is that colour again under D65.
+#include "colour/colour.h"
+#include "image/picture.h"
+#include "render/texture.h"
+#include "spectrum/library.h"
+#include "spectrum/lift.h"
+#include "spectrum/projection.h"
+#include "support/temporary_folder.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace spectrad;
+
+namespace {
+
+Library shipped() {
+    return Library(std::filesystem::path(SPECTRAD_SOURCE) / "spectra");
+}
+
+/// What each node of a texture's curve adds to X, Y and Z under D65, per reflectance 1.
+std::vector<Triple> weightsOf(const std::vector<double>& nm) {
+    const Spectrum lamp = shipped().find("illuminants/D65").value(),
+                   observer = shipped().find("observers/cie1931-2").value();
+    std::vector<Triple> weights;
+    for (size_t t = 0; t < nm.size(); ++t) {
+        std::vector<double> at, value;
+        if (t > 0) at.push_back(nm[t - 1]), value.push_back(0);
+        at.push_back(nm[t]), value.push_back(1);
+        if (t + 1 < nm.size()) at.push_back(nm[t + 1]), value.push_back(0);
+        const Curve hat = Curve::table(at, value, Outside::hold);
+        Triple xyz{};
+        for (size_t c = 0; c < 3; ++c) {
+            const Curve* product[] = {&lamp.curve(), &observer.curves[c], &hat};
+            xyz[c] = integrate(product);
+        }
+        weights.push_back(xyz);
+    }
+    return weights;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a picture's colours, as textures lifted at 10 nm, come back under D65 within 0.5 CIEDE2000 over the "
+    "whole sRGB cube") {
+    // Every 15th of 0 … 255 in each component: 5832 colours, the cube's corners, edges and greys among them.
+    Picture8 picture{18 * 18, 18, 3, {}};
+    for (int r = 0; r < 18; ++r)
+        for (int g = 0; g < 18; ++g)
+            for (int b = 0; b < 18; ++b)
+                for (int v : {r, g, b})
+                    picture.pixels.push_back(static_cast<std::uint8_t>(v * 15));
+    const TemporaryFolder folder;
+    writePng(folder.path() / "cube.png", picture);
+    const SpectralTexture texture = textureFromPicture((folder.path() / "cube.png").string(), shipped());
+    REQUIRE(texture.nm.size() == 41);
+    const std::vector<Triple> weights = weightsOf(texture.nm);
+    Triple white{};
+    for (const Triple& w : weights)
+        for (size_t c = 0; c < 3; ++c)
+            white[c] += w[c];
+    const auto linear = [](std::uint8_t encoded) {
+        const double v = encoded / 255.0;
+        return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    };
+    const Triple srgbWhite = xyzOfLinearSrgb({1, 1, 1});
+    double worst = 0, sum = 0;
+    const size_t pixels = picture.pixels.size() / 3;
+    for (size_t i = 0; i < pixels; ++i) {
+        Triple xyz{};
+        for (size_t t = 0; t < texture.nm.size(); ++t) {
+            const double rho = texture.texels[i * texture.nm.size() + t];
+            if (rho < 0 || rho > 1) FAIL("a reflectance of " << rho);
+            for (size_t c = 0; c < 3; ++c)
+                xyz[c] += rho * weights[t][c];
+        }
+        const std::uint8_t* p = picture.pixels.data() + 3 * i;
+        const double difference = deltaE00(
+            lab(xyz, white), lab(xyzOfLinearSrgb({linear(p[0]), linear(p[1]), linear(p[2])}), srgbWhite));
+        worst = std::max(worst, difference);
+        sum += difference;
+    }
+    INFO("mean " << sum / static_cast<double>(pixels) << ", worst " << worst);
+    CHECK(worst < 0.5);
+    CHECK(sum / static_cast<double>(pixels) < 0.05);
+}
