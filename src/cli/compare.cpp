@@ -21,8 +21,9 @@ namespace spectrad {
 namespace {
 
 struct CompareArguments {
-    std::string a, b, maxDeltaE, map;
+    std::string a, b, maxDeltaE, map, adapt = "cat16";
     ObserverArguments observer;
+    std::vector<std::string> observers;  ///< of A and of B, each adapted to its own white
     bool json = false, quiet = false;
 };
 
@@ -56,6 +57,41 @@ BandDifference bandDifference(const Cube& a, const Cube& b) {
     for (int y = 0; y < a.info.height; ++y)
         meter.add(a.row(y, 0), b.row(y, 0));
     return meter.result();
+}
+
+/// XYZ of a cube seen by one observer, adapted from its own white to equal energy; the white's luminance, or
+/// the brightest pixel's, becomes 100.
+ChannelImage adapted(const ObserverArguments& observer, Adaptation method, const Cube& cube, Notes& notes,
+                     White& white) {
+    const Observation sees(observer, cube.info, notes);
+    ChannelImage xyz = sees.xyz(sees.channels(cube));
+    white = sees.white(xyz);
+    if (!white.hasLuminance) white = withLuminance(white, brightest(xyz));
+    if (!(white.xyz[1] > 0)) throw InputError("a black cube has no white to adapt from");
+    const double scale = 100 / white.xyz[1];
+    const Matrix3 toEqual = adaptation(method, white.xyz, {1, 1, 1}) * diagonal({scale, scale, scale});
+    for (size_t i = 0; i < xyz.pixels(); ++i) {
+        const Triple seen = toEqual * xyz.triple(i);
+        for (size_t k = 0; k < 3; ++k)
+            xyz.plane[k][i] = seen[k];
+    }
+    return xyz;
+}
+
+/// What two observers make of two cubes (or of one), or one observer of two lights, each adapted.
+Result compareObservers(const CompareArguments& arguments, const Cube& a, const Cube& b, Notes& notes) {
+    Result result;
+    result.bands = bandDifference(a, b);
+    const Adaptation method = asUsage("--adapt", [&] { return parseAdaptation(arguments.adapt); });
+    ObserverArguments first = arguments.observer, second = arguments.observer;
+    first.observer = arguments.observers[0];
+    second.observer = arguments.observers[1];
+    White whiteA, whiteB;
+    const ChannelImage xyzA = adapted(first, method, a, notes, whiteA),
+                       xyzB = adapted(second, method, b, notes, whiteB);
+    result.white = {whiteA.name + " and " + whiteB.name + ", adapted to E", {100, 100, 100}, true};
+    result.colour = colourDifference(xyzA, xyzB, result.white.xyz);
+    return result;
 }
 
 Result compareCubes(const CompareArguments& arguments, const Cube& a, const Cube& b, Notes& notes) {
@@ -100,6 +136,7 @@ Json described(const Result& result, const CompareArguments& arguments) {
         out["deltae76"] = {{"mean", nullptr}, {"max", nullptr}};
     }
     out["observer"] = arguments.observer.observer;
+    if (!arguments.observers.empty()) out["observers"] = arguments.observers;
     out["white"] = {{"name", result.white.name}, {"XYZ", result.white.xyz}};
     if (!arguments.map.empty() && result.colour)
         out["map"] = {{"file", arguments.map}, {"deltae00_from", 0}, {"deltae00_to", result.colour->max}};
@@ -124,7 +161,9 @@ void printTable(const Result& result, const CompareArguments& arguments, const C
     printText(fmt::format("CIEDE2000            mean {}, 95 % {}, max {} at {},{} (white {} at Y = {}, {})\n",
                           rounded(colour.mean, 4), rounded(colour.p95, 4), rounded(colour.max, 4),
                           colour.maxX, colour.maxY, result.white.name, rounded(result.white.xyz[1], 5),
-                          arguments.observer.observer));
+                          arguments.observers.empty()
+                              ? arguments.observer.observer
+                              : arguments.observers[0] + " and " + arguments.observers[1]));
     if (!arguments.map.empty())
         printText(fmt::format("map                  {}: CIEDE2000 from 0 (dark blue) to {} (yellow)\n",
                               arguments.map, rounded(colour.max, 4)));
@@ -154,9 +193,14 @@ ExitCode compare(const CompareArguments& arguments) {
         requireWritable(arguments.map);
     }
     Console console(arguments.quiet);
-    const Cube a = readCube(arguments.a, console.notes()), b = readCube(arguments.b, console.notes());
+    const bool two = !arguments.observers.empty();
+    if (arguments.b.empty() && !two)
+        throw UsageError("compare needs two cubes, or one and --observers; see 'spectrad compare --help'");
+    const Cube a = readCube(arguments.a, console.notes()),
+               b = readCube(arguments.b.empty() ? arguments.a : arguments.b, console.notes());
     requireComparable(a.info, b.info, console.notes());
-    const Result result = compareCubes(arguments, a, b, console.notes());
+    const Result result = two ? compareObservers(arguments, a, b, console.notes())
+                              : compareCubes(arguments, a, b, console.notes());
     console.printNotes();
     if (!arguments.map.empty() && result.colour) writeMap(arguments.map, a.info, *result.colour);
     if (arguments.json)
@@ -172,10 +216,17 @@ void addCompare(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("compare", "Compare two cubes: bands, spectral shapes, CIEDE2000");
     auto arguments = std::make_shared<CompareArguments>();
     command->add_option("A", arguments->a, "spectral image, EXR or ENVI")->type_name("A.exr")->required();
-    command->add_option("B", arguments->b, "another of the same size and wavelengths")
-        ->type_name("B.exr")
-        ->required();
+    command->add_option("B", arguments->b, "another of the same size and wavelengths")->type_name("B.exr");
     addObserverOptions(*command, arguments->observer);
+    command
+        ->add_option("--observers", arguments->observers,
+                     "who sees A and who sees B (A again where there is no B), each adapted from its own "
+                     "white to equal "
+                     "energy: two detectors, or with twice the same, two lights")
+        ->type_name("NAME NAME")
+        ->expected(2);
+    command->add_option("--adapt", arguments->adapt, "the adaptation of --observers; default: cat16")
+        ->type_name("cat16|bradford|vonkries|none");
     command
         ->add_option("--max-deltae", arguments->maxDeltaE,
                      "exit with 1 if CIEDE2000 of any pixel is beyond this")
@@ -193,6 +244,8 @@ void addCompare(CLI::App& app, Action& action) {
         "without luminance counts at A's brightest Y.\n\n"
         "Examples:\n"
         "  spectrad compare reference.exr new.exr --max-deltae 0.5\n"
+        "  spectrad compare a.exr --observers cie1931-2 nikon-5100 --map camera.png\n"
+        "  spectrad compare daylight.exr tungsten.exr --observers cie1931-2 cie1931-2\n"
         "  spectrad compare a.exr b.exr --observer cie1964-10 --map difference.png --json");
     command->final_callback([&action, arguments] { action = [arguments] { return compare(*arguments); }; });
 }

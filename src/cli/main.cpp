@@ -1,7 +1,7 @@
 // The program: reads the command line, runs one command, and turns every failure into one line and an exit
 // code.
 #include "base/text.h"
-#include "cli/commands.h"
+#include "cli/camera_commands.h"
 #include "cli/console.h"
 #include "cli/help.h"
 #include "cli/signals.h"
@@ -91,6 +91,8 @@ ExitCode runProgram(const std::vector<std::string>& arguments) {
     addCompare(app, action);
     addStudy(app, action);
     addMetamer(app, action);
+    addExpose(app, action);
+    addSweep(app, action);
     addInfo(app, action);
     addDevices(app, action);
     addCompletion(app, action);

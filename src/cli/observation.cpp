@@ -49,6 +49,18 @@ std::optional<Triple> parseTriple(const std::string& text) {
     return triple[1] > 0 ? std::optional(triple) : std::nullopt;
 }
 
+constexpr const char* ofImage = "image";
+
+/// The mean of all pixels, as if the world were grey.
+White meanOf(const ChannelImage& image) {
+    Triple mean{};
+    for (size_t k = 0; k < 3; ++k)
+        for (const double value : image.plane[k])
+            mean[k] += value / static_cast<double>(image.pixels());
+    if (!(mean[1] > 0)) throw InputError("the white 'image' is the mean of a black image");
+    return {ofImage, {mean[0] / mean[1], 1, mean[2] / mean[1]}, false};
+}
+
 /// The pixel that "at:X,Y" names.
 White placed(const std::string& wanted, const ChannelImage& image) {
     const std::vector<std::string_view> place = split(std::string_view(wanted).substr(3), ',');
@@ -80,12 +92,12 @@ void addObserverOptions(CLI::App& command, ObserverArguments& arguments) {
         ->type_name("NAME|FILE");
     command
         .add_option("--white", arguments.white,
-                    "the white: a light's spectrum (chromaticity only), X,Y,Z with Y in cd/m2, or at:X,Y for "
-                    "a pixel; "
+                    "the white: a light's spectrum (chromaticity only), X,Y,Z with Y in cd/m2, at:X,Y for "
+                    "a pixel, or image for the mean of all; "
                     "default: the scene's first light as the cube states it, else E. A reflectance cube is "
                     "seen under that "
                     "light (default: D65)")
-        ->type_name("LIGHT|XYZ|at:X,Y");
+        ->type_name("LIGHT|XYZ|at:X,Y|image");
 }
 
 bool namesFilm(const std::string& observer) {
@@ -135,7 +147,7 @@ Observation::Observation(const ObserverArguments& arguments, const CubeInfo& inf
         weights_ = weightsOn(info.wavelengths, detector_);
         return;
     }
-    const bool named = !wanted_.empty() && !isPlace(wanted_) && !isNumbers(wanted_);
+    const bool named = !wanted_.empty() && wanted_ != ofImage && !isPlace(wanted_) && !isNumbers(wanted_);
     light_ = resolver_.resolve(named ? wanted_ : daylight, Role::light, {});
     const std::array<const Curve*, 1> alone{&light_->curve()};
     const double y = respond(detector_.tristimulus ? detector_ : standard_, alone)[1];
@@ -227,6 +239,7 @@ White Observation::white(const ChannelImage& image) const {
         return withLuminance({film_->film().projectorName, film_->lamp(), false}, diffuserY * clear);
     }
     if (isPlace(wanted_)) return placed(wanted_, image);
+    if (wanted_ == ofImage) return meanOf(image);
     if (wanted_.empty() && !light_) return statedWhite();
     White white =
         whiteFor(light_ && !isNumbers(wanted_) ? light_->text : wanted_, detector_, toXyz_, resolver_, {});

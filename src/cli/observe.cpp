@@ -4,7 +4,8 @@
 #include "cli/console.h"
 #include "cli/observation.h"
 #include "cli/options.h"
-#include "colour/develop.h"
+#include "colour/rendering.h"
+#include "colour/spectral_display.h"
 #include "image/picture.h"
 
 #include <CLI/CLI.hpp>
@@ -18,7 +19,8 @@ namespace spectrad {
 namespace {
 
 struct ObserveArguments {
-    std::string cube, output, adapt = "cat16", display = "srgb", exposure = "0";
+    std::string cube, output, adapt = "cat16", display = "srgb", exposure = "0", degree = "1",
+                              tone = "linear", gamut = "clip", gamutMap, seenBy;
     ObserverArguments observer;
     bool json = false, quiet = false;
 };
@@ -32,8 +34,27 @@ Exposure parseExposure(const std::string& text) {
 /// Everything that the command line alone decides, before the cube is read.
 struct Task {
     bool picture = true;
-    DevelopSettings settings;
+    Rendering rendering;
+    std::optional<SpectralDisplay> spectral;  ///< the display by its primaries' spectra
 };
+
+/// A display by its primaries' spectra (displays/… of the library, or a table with the columns R, G, B), else
+/// by name or file.
+void chooseDisplay(const ObserveArguments& arguments, Task& task) {
+    if (arguments.display.starts_with("displays/") || extensionOf(arguments.display) == ".csv") {
+        Notes notes;
+        const Library library = Library::open();
+        const SpectrumResolver resolver(library, ".", false, notes);
+        task.spectral = spectralDisplay(resolver.resolve(arguments.display, Role::any, {}));
+        task.rendering.base.display = task.spectral->seenBy(standardObserver(library));
+    } else {
+        task.rendering.base.display = displayFor(arguments.display);
+    }
+    if (!arguments.seenBy.empty() && !(task.picture && task.spectral))
+        throw UsageError(
+            "--seen-by needs a picture and a display by the spectra of its primaries, as --display "
+            "displays/lcd-apple-studio");
+}
 
 Task taskOf(const ObserveArguments& arguments) {
     Task task;
@@ -42,19 +63,66 @@ Task taskOf(const ObserveArguments& arguments) {
         throw UsageError("-o: '" + arguments.output +
                          "' must end in .png (a picture) or .exr (the detector's channels)");
     task.picture = extension == ".png";
-    task.settings.adaptation = asUsage("--adapt", [&] { return parseAdaptation(arguments.adapt); });
-    task.settings.display = displayFor(arguments.display);
-    task.settings.exposure = parseExposure(arguments.exposure);
+    task.rendering.base.adaptation = asUsage("--adapt", [&] { return parseAdaptation(arguments.adapt); });
+    task.rendering.base.exposure = parseExposure(arguments.exposure);
+    task.rendering.degree = parseNumber("--degree", arguments.degree, 0, 1);
+    task.rendering.tone = asUsage("--tone", [&] { return parseTone(arguments.tone); });
+    task.rendering.gamut = asUsage("--gamut", [&] { return parseGamutMapping(arguments.gamut); });
+    chooseDisplay(arguments, task);
+    if (!arguments.gamutMap.empty()) {
+        if (!task.picture || extensionOf(arguments.gamutMap) != ".png")
+            throw UsageError("--gamut-map: '" + arguments.gamutMap + "' must end in .png, and so must -o");
+        requireWritable(arguments.gamutMap);
+    }
     requireOther("-o", arguments.output, arguments.cube);
     requireWritable(arguments.output);
     return task;
 }
 
-Json writePicture(const ObserveArguments& arguments, DevelopSettings settings, const Observation& observation,
-                  const ChannelImage& channels, Notes& notes) {
+/// What a second observer sees on the display against what he sees of the scene, both as he is adapted.
+Json secondLook(const ObserveArguments& arguments, const Task& task, const RenderedPicture& rendered,
+                const Cube& cube, Notes& notes) {
+    ObserverArguments second = arguments.observer;
+    second.observer = arguments.seenBy;
+    const Observation observation(second, cube.info, notes);
+    if (!observation.detector().tristimulus)
+        throw InputError("--seen-by: '" + arguments.seenBy + "' is no observer with X, Y, Z");
+    const Display display = task.spectral->seenBy(observation.detector());
+    ChannelImage own = observation.channels(cube);
+    DevelopSettings settings = task.rendering.base;
+    settings.display = display;
+    settings.white = observation.white(own);
+    // His scene, in the display's XYZ for him: the same adaptation and exposure, but no display in between.
+    const Matrix3 toDisplay = display.toXyz * developMatrix(settings, rendered.picture.whiteLuminance);
+    for (size_t i = 0; i < own.pixels(); ++i) {
+        const Triple xyz = toDisplay * own.triple(i);
+        for (size_t k = 0; k < 3; ++k)
+            own.plane[k][i] = xyz[k];
+    }
+    const ColourDifference difference = displayMetamerism(rendered.signals, display, own);
+    printError(fmt::format("'{}' on {} for {}: CIEDE2000 mean {}, 95 % {}, max {} at {},{}", arguments.output,
+                           task.spectral->name, arguments.seenBy, rounded(difference.mean, 4),
+                           rounded(difference.p95, 4), rounded(difference.max, 4), difference.maxX,
+                           difference.maxY));
+    return {{"observer", arguments.seenBy},
+            {"mean", difference.mean},
+            {"p95", difference.p95},
+            {"max", difference.max},
+            {"max_at", {difference.maxX, difference.maxY}}};
+}
+
+Json writePicture(const ObserveArguments& arguments, Task task, const Observation& observation,
+                  const Cube& cube, const ChannelImage& channels, Notes& notes) {
     const ChannelImage xyz = observation.xyz(channels);
+    DevelopSettings& settings = task.rendering.base;
+    if (task.spectral && observation.detector().tristimulus)
+        settings.display = task.spectral->seenBy(observation.detector());
     const White white = settings.white = observation.white(xyz);
-    const DevelopedPicture picture = develop(xyz, settings);
+    const RenderedPicture rendered = render(xyz, task.rendering);
+    const DevelopedPicture& picture = rendered.picture;
+    if (!arguments.gamutMap.empty())
+        writePng(arguments.gamutMap, {picture.width, picture.height, 3, rendered.map},
+                 {{"Description", "outside the display's range: blue below 0, red above 1, magenta both"}});
     writePng(arguments.output, {picture.width, picture.height, 3, picture.rgb},
              {{"Software", "spectrad " SPECTRAD_VERSION},
               {"Description",
@@ -67,11 +135,14 @@ Json writePicture(const ObserveArguments& arguments, DevelopSettings settings, c
         notes.say(fmt::format(
             "{:.1f} % of the pixels lie outside the display's range and were clipped (--exposure changes it)",
             picture.clippedShare() * 100));
-    return {{"white", {{"name", white.name}, {"XYZ", white.xyz}, {"has_luminance", white.hasLuminance}}},
-            {"white_luminance_cd_m2", picture.whiteLuminance},
-            {"clipped_pixels", picture.clipped},
-            {"display", settings.display.name},
-            {"adapt", arguments.adapt}};
+    Json out{{"white", {{"name", white.name}, {"XYZ", white.xyz}, {"has_luminance", white.hasLuminance}}},
+             {"white_luminance_cd_m2", picture.whiteLuminance},
+             {"clipped_pixels", picture.clipped},
+             {"display", settings.display.name},
+             {"adapt", arguments.adapt}};
+    if (!arguments.seenBy.empty())
+        out["display_metamerism"] = secondLook(arguments, task, rendered, cube, notes);
+    return out;
 }
 
 Json writeChannels(const ObserveArguments& arguments, const Observation& observation,
@@ -94,12 +165,12 @@ ExitCode observe(const ObserveArguments& arguments) {
     const Cube cube = readCube(arguments.cube, console.notes());
     const bool film = namesFilm(arguments.observer.observer);
     ObserverArguments observer = arguments.observer;
-    if (film) observer.filmStops = -std::exchange(task.settings.exposure, Exposure{}).ev;
+    if (film) observer.filmStops = -std::exchange(task.rendering.base.exposure, Exposure{}).ev;
     const Observation observation(observer, cube.info, console.notes());
     console.printNotes();
     const ChannelImage channels = observation.channels(cube);
     const Json details = task.picture
-                             ? writePicture(arguments, task.settings, observation, channels, console.notes())
+                             ? writePicture(arguments, task, observation, cube, channels, console.notes())
                              : writeChannels(arguments, observation, channels);
     if (!arguments.json) return ExitCode::ok;
     Json out{{"output", arguments.output},
@@ -129,14 +200,39 @@ void addObserve(CLI::App& app, Action& action) {
     addObserverOptions(*command, arguments->observer);
     command
         ->add_option("--adapt", arguments->adapt,
-                     "chromatic adaptation from the white to the display's, complete; none keeps "
+                     "chromatic adaptation from the white to the display's; none keeps "
                      "chromaticities; default: cat16")
         ->type_name("cat16|bradford|vonkries|none");
     command
-        ->add_option(
-            "--display", arguments->display,
-            "the display, or a file of its primaries' chromaticities, white and gamma; default: srgb")
+        ->add_option("--display", arguments->display,
+                     "the display, a file of its primaries' chromaticities, white and gamma, or by the "
+                     "spectra of its primaries: "
+                     "displays/lcd-apple-studio, displays/crt-brainard-1997, x.csv with the columns R, G, B; "
+                     "default: srgb")
         ->type_name("srgb|p3|rec2020|FILE");
+    command
+        ->add_option("--degree", arguments->degree, "degree of adaptation, D of CIECAM16, 0 to 1; default: 1")
+        ->type_name("D");
+    command
+        ->add_option(
+            "--tone", arguments->tone,
+            "reinhard bends luminances up to four times the display's white into its range; default: linear")
+        ->type_name("linear|reinhard");
+    command
+        ->add_option("--gamut", arguments->gamut,
+                     "colours that the display lacks: each channel clipped, or moved towards the grey of the "
+                     "same luminance; "
+                     "default: clip")
+        ->type_name("clip|desaturate");
+    command
+        ->add_option("--gamut-map", arguments->gamutMap,
+                     "also a map of them: blue where a signal is below 0, red above 1, magenta both")
+        ->type_name("OUT.png");
+    command
+        ->add_option("--seen-by", arguments->seenBy,
+                     "how far the picture on a display given by spectra is from the scene for another "
+                     "observer, in CIEDE2000")
+        ->type_name("OBSERVER");
     command
         ->add_option("--exposure", arguments->exposure,
                      "stops: the white's luminance x 2^-EV is shown as display white; auto, and a white "

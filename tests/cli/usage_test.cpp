@@ -7,8 +7,8 @@ using cli::requireError;
 using cli::run;
 
 namespace {
-const std::vector<std::string> commands{"render",  "bake", "observe", "measure",   "compare",
-                                        "metamer", "info", "devices", "completion"};
+const std::vector<std::string> commands{"render", "bake",  "observe", "measure", "compare",   "metamer",
+                                        "expose", "sweep", "info",    "devices", "completion"};
 }
 
 TEST_CASE("help goes to standard output, lists every command, and ends with 0") {

@@ -1,0 +1,84 @@
+#include "camera/colour_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spectrad {
+
+namespace {
+
+/// Solves a · x = b by elimination with pivoting; directions of no more than rounding get 0.
+std::vector<double> solved(std::vector<std::vector<double>> a, std::vector<double> b) {
+    const size_t n = b.size();
+    for (size_t k = 0; k < n; ++k) {
+        size_t pivot = k;
+        for (size_t r = k + 1; r < n; ++r)
+            if (std::abs(a[r][k]) > std::abs(a[pivot][k])) pivot = r;
+        std::swap(a[k], a[pivot]);
+        std::swap(b[k], b[pivot]);
+        if (std::abs(a[k][k]) < 1e-12) {
+            a[k][k] = 1;
+            b[k] = 0;
+            continue;
+        }
+        for (size_t r = k + 1; r < n; ++r) {
+            const double factor = a[r][k] / a[k][k];
+            for (size_t c = k; c < n; ++c)
+                a[r][c] -= factor * a[k][c];
+            b[r] -= factor * b[k];
+        }
+    }
+    for (size_t k = n; k-- > 0;) {
+        for (size_t c = k + 1; c < n; ++c)
+            b[k] -= a[k][c] * b[c];
+        b[k] /= a[k][k];
+    }
+    return b;
+}
+
+}  // namespace
+
+std::vector<double> whiteBalance(const std::vector<double>& white) {
+    const double most = *std::max_element(white.begin(), white.end());
+    std::vector<double> gains;
+    for (const double w : white) {
+        if (!(w > 0)) throw InputError("a channel sees nothing of the white: it cannot be balanced");
+        gains.push_back(most / w);
+    }
+    return gains;
+}
+
+XyzMatrix fittedMatrix(const Detector& camera, const Detector& observer, const Curve& light,
+                       const std::vector<Curve>& chart) {
+    const size_t n = camera.size();
+    if (chart.size() < n)
+        throw InputError("a chart of " + std::to_string(chart.size()) + " patches is too small for " +
+                         std::to_string(n) + " channels");
+    const Curve perfect = Curve::constant(1);
+    const auto seen = [&](const Detector& detector, const Curve& patch) {
+        const std::array<const Curve*, 2> product{&light, &patch};
+        return respond(detector, product);
+    };
+    const std::vector<double> white = seen(camera, perfect), whiteXyz = seen(observer, perfect);
+    static_cast<void>(whiteBalance(white));
+    std::vector<Curve> patches = chart;
+    patches.push_back(perfect);
+    std::vector<std::vector<double>> gram(n, std::vector<double>(n));
+    std::array<std::vector<double>, 3> target;
+    target.fill(std::vector<double>(n));
+    for (const Curve& patch : patches) {
+        std::vector<double> channels = seen(camera, patch);
+        const std::vector<double> xyz = seen(observer, patch);
+        for (size_t c = 0; c < n; ++c)
+            channels[c] /= white[c];
+        for (size_t r = 0; r < n; ++r) {
+            for (size_t c = 0; c < n; ++c)
+                gram[r][c] += channels[r] * channels[c];
+            for (size_t k = 0; k < 3; ++k)
+                target[k][r] += channels[r] * xyz[k] / whiteXyz[1];
+        }
+    }
+    return {solved(gram, target[0]), solved(gram, target[1]), solved(gram, target[2])};
+}
+
+}  // namespace spectrad

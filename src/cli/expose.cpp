@@ -1,0 +1,228 @@
+// spectrad expose: a cube through a camera's signal chain, to raw counts and a rendered picture.
+#include "base/text.h"
+#include "camera/colour_fit.h"
+#include "camera/mosaic.h"
+#include "camera/sensor.h"
+#include "cli/camera_commands.h"
+#include "cli/console.h"
+#include "cli/observation.h"
+#include "cli/options.h"
+#include "colour/develop.h"
+#include "image/picture.h"
+#include "image/png16.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace spectrad {
+
+namespace {
+
+struct ExposeArguments {
+    std::string cube, output, picture, fNumber = "4", time = "0.01", pitch = "4", readNoise = "0",
+                                       darkCurrent = "0", fullWell, bits, black = "0", seed = "1", mosaic,
+                                       chart = "charts/colorchecker", display = "srgb";
+    ObserverArguments observer{
+        "qe:sensors/ccd * filters/ir-cut * (R = filters/red, G = filters/green, B = filters/blue)", ""};
+    bool noShotNoise = false, json = false, quiet = false;
+};
+
+Sensor sensorOf(const ExposeArguments& arguments) {
+    constexpr double most = 1e12;
+    Sensor sensor;
+    Shutter shutter;
+    shutter.fNumber = parseNumber("--f-number", arguments.fNumber, 0.1, 1000);
+    shutter.seconds = parseNumber("--time", arguments.time, 1e-9, 1e6);
+    shutter.pitchMicrometres = parseNumber("--pitch", arguments.pitch, 0.01, 1e5);
+    sensor.electronsPerSignal = shutter.electronsPerSignal();
+    sensor.seconds = shutter.seconds;
+    sensor.shotNoise = !arguments.noShotNoise;
+    sensor.readNoise = parseNumber("--read-noise", arguments.readNoise, 0, most);
+    sensor.darkCurrent = parseNumber("--dark-current", arguments.darkCurrent, 0, most);
+    if (!arguments.fullWell.empty())
+        sensor.fullWell = parseNumber("--full-well", arguments.fullWell, 1, most);
+    if (!arguments.bits.empty()) sensor.bits = parseCount("--bits", arguments.bits, 1, 16);
+    sensor.black = parseNumber("--black", arguments.black, 0, 65535);
+    sensor.seed = static_cast<std::uint64_t>(parseCount("--seed", arguments.seed, 0, 2'147'483'647));
+    if (sensor.bits && !sensor.fullWell)
+        throw UsageError("--bits needs --full-well: the electrons that become the last count");
+    if (sensor.bits && sensor.black >= std::exp2(*sensor.bits) - 1)
+        throw UsageError("--black: '" + arguments.black + "' leaves no counts for light");
+    return sensor;
+}
+
+void writeRaw(const ExposeArguments& arguments, const ChannelImage& raw,
+              const std::vector<std::string>& channels, const Sensor& sensor) {
+    const std::string unit = sensor.bits ? "counts" : "electrons";
+    if (extensionOf(arguments.output) == ".exr") {
+        writeChannelsExr(arguments.output, raw.width, raw.height, channels, floatPlanes(raw, channels),
+                         {{"observer", arguments.observer.observer},
+                          {"unit", unit},
+                          {"mosaic", arguments.mosaic},
+                          {"seed", arguments.seed},
+                          {"cube", arguments.cube},
+                          {"program", "spectrad " SPECTRAD_VERSION}});
+        return;
+    }
+    Picture16 picture{raw.width, raw.height, static_cast<int>(raw.plane.size()), {}};
+    for (size_t i = 0; i < raw.pixels(); ++i)
+        for (const std::vector<double>& plane : raw.plane)
+            picture.pixels.push_back(
+                static_cast<std::uint16_t>(std::clamp(std::round(plane[i]), 0.0, 65535.0)));
+    writePng16(arguments.output, picture);
+}
+
+/// Channels balanced on the white, through the matrix fitted to the chart under it.
+DevelopedPicture rendered(const ExposeArguments& arguments, const ChannelImage& electrons,
+                          const Detector& detector, const Curve& light, const Library& library,
+                          const SpectrumResolver& resolver) {
+    const Detector eye = standardObserver(library);
+    const Spectrum chart = resolver.resolve(arguments.chart, Role::any, {});
+    if (chart.quantity != Quantity::reflectance && chart.quantity != Quantity::unknown)
+        throw InputError("--chart: '" + arguments.chart + "' is no chart of reflectances");
+    std::vector<Curve> patches;
+    for (const Curve& patch : chart.curves)
+        patches.push_back(patch.withOutside(Outside::hold));
+    const XyzMatrix matrix = fittedMatrix(detector, eye, light, patches);
+    const std::array<const Curve*, 1> alone{&light};
+    const std::vector<double> white = respond(detector, alone);
+    ChannelImage balanced = electrons;
+    for (size_t c = 0; c < white.size(); ++c)
+        for (double& value : balanced.plane[c])
+            value /= white[c];
+    DevelopSettings settings;
+    settings.white = {"", respondXyz(eye, alone), false};
+    settings.display = displayFor(arguments.display);
+    settings.exposure.automatic = true;
+    return develop(toXyz(matrix, balanced), settings);
+}
+
+ExitCode exposeCube(const ExposeArguments& arguments) {
+    const Sensor sensor = sensorOf(arguments);
+    const std::string extension = extensionOf(arguments.output);
+    if (extension != ".png" && extension != ".exr")
+        throw UsageError("-o: '" + arguments.output + "' must end in .exr or .png (16 bits)");
+    if (extension == ".png" && !sensor.bits)
+        throw UsageError("-o: a PNG holds counts, which --bits and --full-well make");
+    if (!arguments.picture.empty() && extensionOf(arguments.picture) != ".png")
+        throw UsageError("--picture: '" + arguments.picture + "' must end in .png");
+    requireWritable(arguments.output);
+    if (!arguments.picture.empty()) requireWritable(arguments.picture);
+    if (namesFilm(arguments.observer.observer))
+        throw UsageError("--observer: a film has no counts (observe shows it)");
+
+    Console console(arguments.quiet);
+    const Cube cube = readCube(arguments.cube, console.notes());
+    const Observation observation(arguments.observer, cube.info, console.notes());
+    const Detector& detector = observation.detector();
+    std::optional<Mosaic> mosaic;
+    if (!arguments.mosaic.empty()) mosaic.emplace(arguments.mosaic, detector.channels);
+    if (extension == ".png" && !mosaic && detector.size() != 1 && detector.size() != 3)
+        throw UsageError(fmt::format("-o: a PNG takes 1 or 3 channels, the detector has {} (write .exr)",
+                                     detector.size()));
+    const ChannelImage signals = observation.channels(cube);
+    ChannelImage raw = mosaic ? expose(sampled(signals, *mosaic), sensor) : expose(signals, sensor);
+    writeRaw(arguments, raw, mosaic ? std::vector<std::string>{"raw"} : detector.channels, sensor);
+    Json out{{"output", arguments.output},
+             {"unit", sensor.bits ? "counts" : "electrons"},
+             {"electrons_per_signal", sensor.electronsPerSignal},
+             {"channels", mosaic ? std::vector<std::string>{"raw"} : detector.channels}};
+    if (!arguments.picture.empty()) {
+        const Library library = Library::open();
+        const SpectrumResolver resolver(library, ".", false, console.notes());
+        const auto name = cube.info.attributes.find(attribute::white);
+        const std::string white = !arguments.observer.white.empty()    ? arguments.observer.white
+                                  : name != cube.info.attributes.end() ? name->second
+                                                                       : "constant:1";
+        const ChannelImage electrons = electronsOf(std::move(raw), sensor);
+        const DevelopedPicture picture =
+            rendered(arguments, mosaic ? demosaiced(electrons, *mosaic) : electrons, detector,
+                     resolver.resolve(white, Role::light, {}).curve(), library, resolver);
+        writePng(arguments.picture, {picture.width, picture.height, 3, picture.rgb},
+                 {{"Software", "spectrad " SPECTRAD_VERSION}}, arguments.display == "srgb");
+        out["picture"] = arguments.picture;
+        out["white"] = white;
+    }
+    console.printNotes();
+    if (arguments.json) printJson(out);
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void addExpose(CLI::App& app, Action& action) {
+    CLI::App* command = app.add_subcommand(
+        "expose", "Put a cube through a camera's signal chain: raw counts, and a picture of them");
+    auto arguments = std::make_shared<ExposeArguments>();
+    command->add_option("CUBE", arguments->cube, "spectral image, EXR or ENVI")
+        ->type_name("CUBE.exr")
+        ->required();
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "x.exr: raw values as floats; x.png: counts in 16 bits")
+        ->type_name("RAW.exr|RAW.png")
+        ->required();
+    command
+        ->add_option(
+            "--observer", arguments->observer.observer,
+            "the camera, as for observe; a quantum efficiency (qe:) makes electrons of its signal; default: "
+            "qe:sensors/ccd behind filters/ir-cut and red, green, blue separation filters")
+        ->type_name("NAME|FILE|PRODUCT");
+    command->add_option("--f-number", arguments->fNumber, "of the lens; default: 4")->type_name("N");
+    command->add_option("--time", arguments->time, "exposure in s; default: 0.01")->type_name("S");
+    command->add_option("--pitch", arguments->pitch, "side of a pixel in micrometres; default: 4")
+        ->type_name("UM");
+    command->add_flag("--no-shot-noise", arguments->noShotNoise, "leave out the photons' noise");
+    command->add_option("--read-noise", arguments->readNoise, "root mean square in electrons; default: 0")
+        ->type_name("E");
+    command->add_option("--dark-current", arguments->darkCurrent, "electrons per second; default: 0")
+        ->type_name("E");
+    command->add_option("--full-well", arguments->fullWell, "electrons that a pixel holds; default: no limit")
+        ->type_name("E");
+    command
+        ->add_option("--bits", arguments->bits,
+                     "quantise: the full well becomes 2^bits - 1; 1 to 16; default: electrons")
+        ->type_name("N");
+    command->add_option("--black", arguments->black, "count of no light; default: 0")->type_name("COUNT");
+    command
+        ->add_option("--seed", arguments->seed,
+                     "of the noise; the same seed gives the same bytes; default: 1")
+        ->type_name("N");
+    command
+        ->add_option("--mosaic", arguments->mosaic,
+                     "one channel a pixel, as RGGB (R G over G B); the raw image has one plane")
+        ->type_name("PATTERN");
+    command
+        ->add_option(
+            "--picture", arguments->picture,
+            "also a picture: demosaiced, balanced on the white, through a matrix fitted to the chart")
+        ->type_name("OUT.png");
+    command
+        ->add_option("--white", arguments->observer.white,
+                     "the light that the picture is balanced for; default: the scene's first light")
+        ->type_name("LIGHT");
+    command
+        ->add_option("--chart", arguments->chart,
+                     "reflectances that the matrix is fitted to; default: charts/colorchecker")
+        ->type_name("NAME|FILE");
+    command->add_option("--display", arguments->display, "of the picture; default: srgb")
+        ->type_name("srgb|p3|rec2020|FILE");
+    command->add_flag("--json", arguments->json, "print a JSON object about what was written");
+    command->add_flag("-q,--quiet", arguments->quiet, "no remarks on standard error");
+    command->footer(
+        "Electrons are the camera's signal times pi / (4 N^2) x pitch^2 x time. Photons arrive by Poisson's "
+        "law, reading adds a "
+        "normal error; each pixel and channel draws from the seed by its own number, whatever the order.\n\n"
+        "Examples:\n"
+        "  spectrad expose scene.exr -o raw.exr --time 0.02 --f-number 2.8\n"
+        "  spectrad expose scene.exr -o raw.png --full-well 20000 --bits 12 --read-noise 3 --mosaic RGGB "
+        "--picture photo.png");
+    command->final_callback(
+        [&action, arguments] { action = [arguments] { return exposeCube(*arguments); }; });
+}
+
+}  // namespace spectrad

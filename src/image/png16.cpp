@@ -1,0 +1,60 @@
+#include "image/png16.h"
+
+#include "base/error.h"
+#include "base/files.h"
+
+#include <fmt/format.h>
+#include <png.h>
+
+namespace spectrad {
+
+void writePng16(const std::filesystem::path& target, const Picture16& picture) {
+    const size_t values = static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height) *
+                          static_cast<size_t>(picture.channels);
+    if (picture.width < 1 || picture.height < 1 || (picture.channels != 1 && picture.channels != 3) ||
+        picture.pixels.size() != values)
+        throw InputError(
+            {target.string()},
+            fmt::format(
+                "no 16-bit PNG of {}x{} pixels with {} channels from {} values (allowed: 1 or 3 channels)",
+                picture.width, picture.height, picture.channels, picture.pixels.size()));
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(picture.width);
+    image.height = static_cast<png_uint_32>(picture.height);
+    image.format = picture.channels == 1 ? PNG_FORMAT_LINEAR_Y : PNG_FORMAT_LINEAR_RGB;
+    png_alloc_size_t size = 0;
+    std::string bytes;
+    bool written = png_image_write_get_memory_size(image, size, 0, picture.pixels.data(), 0, nullptr) != 0;
+    if (written) {
+        bytes.resize(size);
+        written =
+            png_image_write_to_memory(&image, bytes.data(), &size, 0, picture.pixels.data(), 0, nullptr) != 0;
+        bytes.resize(size);
+    }
+    const std::string message = image.message;
+    png_image_free(&image);
+    if (!written) throw MachineError("cannot write '" + target.string() + "': " + message);
+    writeFile(target, bytes);
+}
+
+Picture16 readPng16(const std::filesystem::path& path) {
+    const std::string bytes = readFile(path);
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    const auto check = [&](int done) {
+        if (done != 0) return;
+        const std::string message = image.message;
+        png_image_free(&image);
+        throw InputError({path.string()}, "cannot be read as PNG: " + message);
+    };
+    check(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()));
+    const bool colour = (image.format & PNG_FORMAT_FLAG_COLOR) != 0;
+    image.format = colour ? PNG_FORMAT_LINEAR_RGB : PNG_FORMAT_LINEAR_Y;
+    Picture16 picture{static_cast<int>(image.width), static_cast<int>(image.height), colour ? 3 : 1, {}};
+    picture.pixels.resize(PNG_IMAGE_SIZE(image) / 2);
+    check(png_image_finish_read(&image, nullptr, picture.pixels.data(), 0, nullptr));
+    return picture;
+}
+
+}  // namespace spectrad
