@@ -319,7 +319,7 @@ Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& l
     TermBuilder builder(plan.wavelengths, observer, std::move(groups), settings.only, textures, plan.world,
                         plan.terms, notes);
     const bool asGiven = settings.substitute == Substitute::none;
-    const Emitter* background = asGiven && scene.background ? &*scene.background : nullptr;
+    const Emitter* background = asGiven && !settings.bake && scene.background ? &*scene.background : nullptr;
     const TextureUse* backdrop = background ? backdropOf(scene, shot.pass) : nullptr;
     if (background && background->texture) background = nullptr;
     if (backdrop)

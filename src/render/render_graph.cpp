@@ -55,6 +55,17 @@ void checkMirror(const GraphNode& user, const GraphNode& made, const TextureUse&
                                    made.shot.pass->name, mirrorWidth, mirrorHeight, width, height));
 }
 
+/// What the surfaces of a node wear, and what lights them.
+std::vector<PassNeed> neededToBake(const Scene& scene, const Bake& bake) {
+    Pass alone;
+    for (size_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].name == bake.node) alone.of = static_cast<Index>(i);
+    alone.lights.emplace();
+    for (size_t i = 0; i < scene.lights.size(); ++i)
+        alone.lights->push_back(static_cast<Index>(i));
+    return passesNeeded(scene, &alone);
+}
+
 using Key = std::pair<const Pass*, int>;  ///< and its generation
 
 int lastGeneration(const Pass& pass) {
@@ -75,7 +86,7 @@ std::vector<GraphNode> renderGraph(const Scene& scene, const RenderSettings& set
         frame.node.generation = generation;
         frame.node.settings = with;
         frame.node.grid = gridOf(shot, with);
-        frame.uses = passesNeeded(*shot.scene, shot.pass);
+        frame.uses = with.bake ? neededToBake(*shot.scene, *with.bake) : passesNeeded(*shot.scene, shot.pass);
         return frame;
     };
     std::vector<GraphNode> order;
