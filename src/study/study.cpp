@@ -54,8 +54,10 @@ class Study {
             throw InputError("observer '" + observer + "' has no X, Y, Z: colour differences need them");
         if (!light.empty()) {
             const Spectrum spectrum = resolver.resolve(light, Role::light, {});
-            for (Light& l : c.scene.lights)
+            for (Light& l : c.scene.lights) {
                 l.emitter.spectrum = spectrum;
+                l.emitter.texture.reset();
+            }
         }
         const Plan plan = planner_(c.scene, settings_.render);
         if (plan.as != PassKind::radiance)

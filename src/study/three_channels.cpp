@@ -104,8 +104,11 @@ class Translator {
 };
 
 void translate(Material& material, Translator& to) {
-    if (material.diffuse)
+    if (material.diffuse && material.diffuse->reflectance)
         material.diffuse->reflectance->curves = {to.surface(material.diffuse->reflectance->curve())};
+    if (material.diffuse && material.diffuse->select)
+        for (Select::Choice& choice : material.diffuse->select->choices)
+            choice.reflectance.curves = {to.surface(choice.reflectance.curve())};
     if (material.specular)
         material.specular->reflectance.curves = {to.surface(material.specular->reflectance.curve())};
     if (material.gloss)
@@ -128,12 +131,23 @@ void translate(Material& material, Translator& to) {
     if (material.emission) to.translate(*material.emission);
 }
 
+/// Spectra from place to place, of surfaces or of what glows.
+bool hasPictures(const Scene& scene) {
+    const auto glows = [](const Emitter& emitter) { return emitter.texture.has_value(); };
+    const auto wears = [&](const Material& m) {
+        return (m.diffuse && m.diffuse->texture) || (m.emission && glows(*m.emission));
+    };
+    return std::any_of(scene.materials.begin(), scene.materials.end(), wears) ||
+           std::any_of(scene.lights.begin(), scene.lights.end(),
+                       [&](const Light& light) { return glows(light.emitter); }) ||
+           (scene.background && glows(*scene.background));
+}
+
 }  // namespace
 
 std::optional<ThreeChannelScene> inThreeChannels(const Scene& scene, ThreeChannels kind,
                                                  const Detector& observer, const Library& library) {
-    for (const Material& material : scene.materials)
-        if (material.diffuse && material.diffuse->texture) return std::nullopt;
+    if (hasPictures(scene)) return std::nullopt;
     Translator translator(kind, observer, library);
     ThreeChannelScene out;
     out.scene = scene;

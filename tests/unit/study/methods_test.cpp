@@ -132,7 +132,7 @@ TEST_CASE("tristimulus products are exact under equal-energy light") {
 TEST_CASE("a scene with a spectral texture is not told in three numbers") {
     Scene scene = chart(Curve::constant(1), Curve::constant(1));
     scene.materials[0].diffuse->reflectance.reset();
-    scene.materials[0].diffuse->texture = TextureUse{"cube.exr", false, {}};
+    scene.materials[0].diffuse->texture.emplace();
     CHECK_FALSE(inThreeChannels(scene, ThreeChannels::rgb, observer(), library()));
 }
 
