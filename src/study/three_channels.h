@@ -25,7 +25,8 @@ struct ThreeChannelScene {
     Wavelengths channels;
     DetectorWeights weights;  ///< from the three channels to the observer's X Y Z (Y in cd/m²)
 };
-/// Nothing if the scene cannot be told in three numbers: it has spectral textures, of surfaces or lights. `observer` is tristimulus.
+/// Nothing if the scene cannot be told in three numbers: it has spectral textures, of surfaces or lights.
+/// `observer` is tristimulus.
 [[nodiscard]] std::optional<ThreeChannelScene> inThreeChannels(const Scene& scene, ThreeChannels kind,
                                                                const Detector& observer,
                                                                const Library& library);
