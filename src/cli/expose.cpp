@@ -219,8 +219,7 @@ void addExpose(CLI::App& app, Action& action) {
         "normal error; each pixel and channel draws from the seed by its own number, whatever the order.\n\n"
         "Examples:\n"
         "  spectrad expose scene.exr -o raw.exr --time 0.02 --f-number 2.8\n"
-        "  spectrad expose scene.exr -o raw.png --full-well 20000 --bits 12 --read-noise 3 --mosaic RGGB "
-        "--picture photo.png");
+        "  spectrad expose scene.exr -o raw.png --bits 12 --read-noise 3 --mosaic RGGB --picture p.png");
     command->final_callback(
         [&action, arguments] { action = [arguments] { return exposeCube(*arguments); }; });
 }

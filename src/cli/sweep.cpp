@@ -342,8 +342,9 @@ void addSweep(CLI::App& app, Action& action) {
         "cd/m2), chromaticity and CIELAB against the first light at the image's brightest Y.\n\n"
         "Examples:\n"
         "  spectrad sweep scene.xml -o out --vary "
-        "'key.spectrum+fill.spectrum=illuminants/A|illuminants/D65|illuminants/FL11' "
-        "--observer cie1931-2 --observer nikon-5100 --region white=140,500,20,20\n"
+        "'key.spectrum+fill.spectrum=illuminants/A|illuminants/D65'\n"
+        "  spectrad sweep scene.xml -o out --vary 'key.spectrum=illuminants/A|illuminants/FL11' \\\n"
+        "           --observer cie1931-2 --observer nikon-5100 --region white=140,500,20,20\n"
         "  spectrad sweep scene.xml -o out --vary 'ink.diffuse.reflectance=a.csv|b.csv' --format exr");
     command->final_callback(
         [&action, arguments] { action = [arguments] { return sweepScene(*arguments); }; });

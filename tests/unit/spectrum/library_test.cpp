@@ -90,7 +90,11 @@ TEST_CASE("every spectrum that ships is complete, ascending and within the range
             CHECK(nm.back() == entry.toNm);
             CHECK(std::ranges::adjacent_find(nm, std::greater_equal<>()) == nm.end());
             const auto [low, high] = spectrum->curves[c].bounds();
-            CHECK(low >= 0);
+            // An eye that lacks a kind of cone matches with negative amounts.
+            const bool matching = entry.name == "observers/protanope" ||
+                                  entry.name == "observers/deuteranope" ||
+                                  entry.name == "observers/tritanope";
+            CHECK((low >= 0 || matching));
             CHECK(high > 0);
             CHECK(high < 2000);
             switch (entry.quantity) {

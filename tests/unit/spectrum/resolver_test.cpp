@@ -326,5 +326,5 @@ TEST_CASE("Quantities keep their names, and unknown ones are refused") {
                       head +
                           "unknown quantity 'reflectence' (did you mean 'reflectance'?) (allowed: "
                           "reflectance, transmittance, radiance, "
-                          "irradiance, intensity, power, sensitivity, index, reradiation)");
+                          "irradiance, intensity, power, sensitivity, index, reradiation, density)");
 }
