@@ -61,8 +61,7 @@ Look SceneSubject::firstLook() const {
         look.lights.push_back(
             {light.name.empty() ? "light " + std::to_string(i + 1) : light.name, light.emitter, 1, true});
     }
-    const Detector observer = standardObserver(library_);
-    look.eye = std::make_shared<const Eye>(Eye{observer, towardsXyz(observer, observer)});
+    look.eye = std::make_shared<const Eye>(standardEye(library_));
     return look;
 }
 

@@ -122,6 +122,12 @@ XyzMatrix towardsXyz(const Detector& detector, const Detector& observer) {
     return matrix;
 }
 
+Eye standardEye(const Library& library) {
+    Detector observer = standardObserver(library);
+    XyzMatrix itself = towardsXyz(observer, observer);
+    return {std::move(observer), std::move(itself)};
+}
+
 Triple seenXyz(const Eye& eye, std::span<const Curve* const> product) {
     return toXyz(eye.matrix, respond(eye.detector, product));
 }

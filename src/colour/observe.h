@@ -55,6 +55,8 @@ struct Eye {
     Detector detector;
     XyzMatrix matrix;  ///< towardsXyz of the detector
 };
+/// CIE 1931, see standardObserver().
+[[nodiscard]] Eye standardEye(const Library& library);
 /// X Y Z, absolute, of a product of curves; no bands in between.
 [[nodiscard]] Triple seenXyz(const Eye& eye, std::span<const Curve* const> product);
 

@@ -317,7 +317,7 @@ Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& l
         value /= y;
 
     plan.groups = static_cast<std::uint32_t>(groups.size());
-    const Eye standard{observer, towardsXyz(observer, observer)};
+    const Eye standard = standardEye(library);
     TermBuilder builder(plan.wavelengths, settings.eye ? *settings.eye : standard, std::move(groups),
                         settings.only, textures, plan.world, plan.terms, notes);
     const bool asGiven = settings.substitute == Substitute::none;
