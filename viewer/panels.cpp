@@ -159,7 +159,7 @@ void drawEye(Session& session, PanelState& state) {
     if (ImGui::Button("auto", {-1, 0})) attempt(state, [&] { session.set("exposure=auto"); });
     if (session.heldLuminance)
         ImGui::TextDisabled("%.4g cd/m² shown as white", *session.heldLuminance * std::exp2(-session.ev));
-    ImGui::Checkbox("stripe what the display cannot show", &session.gamutWarning);
+    ImGui::Checkbox("stripe what is out of gamut", &session.gamutWarning);
 }
 
 void drawComparison(Session& session, PanelState& state) {

@@ -19,7 +19,9 @@ constexpr double violet = 380, red = 730;  // nm: what plots without a range of 
 /// About the colour of a wavelength, for people to find their way: sRGB, brightest channel 1.
 ImU32 colourOf(double nm, float alpha) {
     // Gaussian lobes fitted to the CIE 1931 observer (Wyman, Sloan & Shirley 2013).
-    const auto lobe = [nm](double mean, double below, double above) {
+    // Beyond these the fit strays, and the eye sees no other hue.
+    const double seen = std::clamp(nm, 405.0, 690.0);
+    const auto lobe = [nm = seen](double mean, double below, double above) {
         const double t = (nm - mean) / (nm < mean ? below : above);
         return std::exp(-0.5 * t * t);
     };

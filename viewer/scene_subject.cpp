@@ -39,6 +39,12 @@ SceneSubject::SceneSubject(const std::filesystem::path& file, const LoadOptions&
     Plan made = makePlan(scene_, settings_, library_, passes, notes_);
     if (made.as != PassKind::radiance)
         throw InputError("pass '" + made.passName + "' is no radiance: view shows what an eye sees");
+    if (made.faces > 1)
+        throw InputError("camera '" + made.cameraName +
+                         "' looks all around: view needs one that looks ahead");
+    for (const Light& light : scene_.lights)
+        if (light.emitter.texture)
+            throw InputError(light.where, "a light of a pass's colour is not there in the viewer yet");
     finalSamples_ = made.samples;
     view_ = made.view;
     live_ = std::make_unique<LiveImage>(device_, std::move(made));
@@ -157,8 +163,9 @@ Scene SceneSubject::sceneOf(const Look& look) const {
 
 std::vector<LightGroup> SceneSubject::groupsOf(const Scene& changed) const {
     std::vector<sd_light> lights;
-    return groupLights(changed, flat_, view_, standardObserver(library_), lights, false,
-                       settings_.lightsApart);
+    return groupLights(
+        changed, flat_, view_, standardObserver(library_), [](const Emitter& emitter) { return emitter; },
+        lights, false, settings_.lightsApart);
 }
 
 void SceneSubject::plan(Table& table, const Look& look, const Scene& changed) {

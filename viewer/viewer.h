@@ -60,7 +60,7 @@ class Viewer {
     PanelState panels_;
     GLuint left_ = 0, right_ = 0, font_ = 0;
     std::vector<std::uint32_t> leftPixels_, rightPixels_;
-    std::deque<Event> queue_;  ///< of scripts
+    std::deque<Event> queue_;  ///< of the face and of scripts, in order
     Pose home_;
     std::array<std::optional<Pose>, 10> bookmarks_;
     std::array<bool, 3> held_{};    ///< buttons over the picture

@@ -148,8 +148,7 @@ double absoluteFactor(const Emitter& emitter, const Detector& observer) {
 
 std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view,
                                     const Detector& observer, const ResolveEmitter& resolved,
-                                    std::vector<sd_light>& lights, bool equalEnergy,
-                                    bool apart) {
+                                    std::vector<sd_light>& lights, bool equalEnergy, bool apart) {
     std::vector<LightGroup> groups;
     const auto add = [&](const Emitter& given, double unitFactor, sd_light l) {
         const Emitter emitter = equalEnergy ? withConstantSpectrum(given) : given;

@@ -295,9 +295,9 @@ Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& l
     const auto resolved = [&](const Emitter& emitter) {
         return emitter.texture ? withMeanOf(emitter, textures) : emitter;
     };
-    std::vector<LightGroup> groups = groupLights(scene, flat, plan.view, observer, resolved,
-                                                 plan.world.lights, isEqualEnergy(settings.substitute),
-                                                 settings.lightsApart);
+    std::vector<LightGroup> groups =
+        groupLights(scene, flat, plan.view, observer, resolved, plan.world.lights,
+                    isEqualEnergy(settings.substitute), settings.lightsApart);
     if (!isEqualEnergy(settings.substitute)) checkRange(plan.wavelengths, groups, observer, notes);
 
     std::vector<std::uint32_t> number;

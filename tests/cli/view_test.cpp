@@ -82,9 +82,9 @@ TEST_CASE("view says in one line what is wrong") {
     if (!cli::haveDevice()) return;
     requireError(run(folder, {"view", "nothing.xml", "--offscreen", "x.png"}), 1, "nothing.xml");
     folder.write("script.txt", "wait 1\nclick here\n");
-    requireError(run(folder, {"view", "balls.xml", "--offscreen", "x.png", "--script", "script.txt"}), 1,
-                 "script.txt:2:1");
+    requireError(run(folder, {"view", "balls.xml", "-q", "--offscreen", "x.png", "--script", "script.txt"}),
+                 1, "script.txt:2:1");
     ::unsetenv("DISPLAY");
     ::unsetenv("WAYLAND_DISPLAY");
-    requireError(run(folder, {"view", "balls.xml", "--frames", "1"}), 3, "window");
+    requireError(run(folder, {"view", "balls.xml", "-q", "--frames", "1"}), 3, "window");
 }
