@@ -157,9 +157,16 @@ typedef struct sd_material {
     sd_uint first_term, terms;
 } sd_material;
 
+/* What a display makes of linear Rec.709: its own linear signals. */
+#define SD_SHOW_CELLS 4096
+typedef struct sd_show {
+    float to_signal[9]; /* rows */
+} sd_show;
+
 #ifndef __OPENCL_VERSION__
 static_assert(sizeof(sd_frame) == 96 && sizeof(sd_draw) == 144 && sizeof(sd_vertex) == 16 && sizeof(sd_large) == 64 + 0 &&
-                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 56 && sizeof(sd_texture) == 56 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 16,
+                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 56 && sizeof(sd_texture) == 56 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 16 &&
+                  sizeof(sd_show) == 36,
               "layout shared with the kernels");
 #endif
 

@@ -21,6 +21,7 @@ void addMeasure(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 void addStudy(CLI::App& app, Action& action);
 void addMetamer(CLI::App& app, Action& action);
+void addView(CLI::App& app, Action& action);
 void addInfo(CLI::App& app, Action& action);
 void addDevices(CLI::App& app, Action& action);
 void addCompletion(CLI::App& app, Action& action);

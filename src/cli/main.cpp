@@ -93,6 +93,7 @@ ExitCode runProgram(const std::vector<std::string>& arguments) {
     addMetamer(app, action);
     addExpose(app, action);
     addSweep(app, action);
+    addView(app, action);
     addInfo(app, action);
     addDevices(app, action);
     addCompletion(app, action);

@@ -122,6 +122,16 @@ XyzMatrix towardsXyz(const Detector& detector, const Detector& observer) {
     return matrix;
 }
 
+Eye standardEye(const Library& library) {
+    Detector observer = standardObserver(library);
+    XyzMatrix itself = towardsXyz(observer, observer);
+    return {std::move(observer), std::move(itself)};
+}
+
+Triple seenXyz(const Eye& eye, std::span<const Curve* const> product) {
+    return toXyz(eye.matrix, respond(eye.detector, product));
+}
+
 Triple toXyz(const XyzMatrix& matrix, const std::vector<double>& channels) {
     Triple xyz{};
     for (size_t k = 0; k < 3; ++k)

@@ -5,6 +5,7 @@
 #include "colour/detector.h"
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,5 +49,15 @@ using XyzMatrix = std::array<std::vector<double>, 3>;
 /// Channels to X Y Z by such a matrix.
 [[nodiscard]] ChannelImage toXyz(const XyzMatrix& matrix, const ChannelImage& channels);
 [[nodiscard]] Triple toXyz(const XyzMatrix& matrix, const std::vector<double>& channels);
+
+/// A detector with its way to XYZ: what looks at a picture.
+struct Eye {
+    Detector detector;
+    XyzMatrix matrix;  ///< towardsXyz of the detector
+};
+/// CIE 1931, see standardObserver().
+[[nodiscard]] Eye standardEye(const Library& library);
+/// X Y Z, absolute, of a product of curves; no bands in between.
+[[nodiscard]] Triple seenXyz(const Eye& eye, std::span<const Curve* const> product);
 
 }  // namespace spectrad

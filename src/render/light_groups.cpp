@@ -148,12 +148,12 @@ double absoluteFactor(const Emitter& emitter, const Detector& observer) {
 
 std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view,
                                     const Detector& observer, const ResolveEmitter& resolved,
-                                    std::vector<sd_light>& lights, bool equalEnergy) {
+                                    std::vector<sd_light>& lights, bool equalEnergy, bool apart) {
     std::vector<LightGroup> groups;
     const auto add = [&](const Emitter& given, double unitFactor, sd_light l) {
         const Emitter emitter = equalEnergy ? withConstantSpectrum(given) : given;
         const double factor = unitFactor * absoluteFactor(emitter, observer);
-        size_t group = 0;
+        size_t group = apart ? groups.size() : 0;
         while (group < groups.size() && groups[group].text != emitter.spectrum.text)
             ++group;
         if (group == groups.size()) groups.push_back({emitter.spectrum.curve(), 0, emitter.spectrum.text});
@@ -161,7 +161,9 @@ std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, c
         // own magnitude.
         if (groups[group].factor == 0) groups[group].factor = factor;
         l.group = static_cast<sd_uint>(group);
-        l.scale = groups[group].factor == 0 ? 0.0f : static_cast<float>(factor / groups[group].factor);
+        l.scale = apart                       ? 1.0f
+                  : groups[group].factor == 0 ? 0.0f
+                                              : static_cast<float>(factor / groups[group].factor);
         lights.push_back(l);
     };
     bool ambient = false;
@@ -185,6 +187,15 @@ std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, c
         for (LightGroup& group : groups)
             if (group.factor != 0) group.factor = std::numbers::pi;
     return groups;
+}
+
+void placeLights(const Scene& scene, const FlatScene& flat, const View& view, std::vector<sd_light>& lights) {
+    for (size_t i = 0; i < flat.lights.size() && i < lights.size(); ++i) {
+        sd_light moved = placed(scene.lights[flat.lights[i].index], flat.lights[i].toWorld, view);
+        moved.group = lights[i].group;
+        moved.scale = lights[i].scale;
+        lights[i] = moved;
+    }
 }
 
 }  // namespace spectrad

@@ -32,8 +32,13 @@ using ResolveEmitter = std::function<Emitter(const Emitter&)>;
 /// change nothing. Where no ambient light is, the background comes last, for mirrors to show. `equalEnergy`:
 /// every light has a constant spectrum instead of its own; amounts count
 /// relative to each other only.
+/// `apart`: a group for each light, whose scale is 1: spectrum and amount are in its terms alone.
 [[nodiscard]] std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, const View& view,
                                                   const Detector& observer, const ResolveEmitter& resolved,
-                                                  std::vector<sd_light>& lights, bool equalEnergy = false);
+                                                  std::vector<sd_light>& lights, bool equalEnergy = false,
+                                                  bool apart = false);
+
+/// The same lights from another camera: places and axes only. `lights`: as groupLights made them.
+void placeLights(const Scene& scene, const FlatScene& flat, const View& view, std::vector<sd_light>& lights);
 
 }  // namespace spectrad

@@ -1,6 +1,6 @@
 #include "render/material_report.h"
 
-#include "colour/detector.h"
+#include "colour/observe.h"
 #include "render/coat.h"
 #include "render/fresnel.h"
 #include "render/term_table.h"
@@ -90,8 +90,8 @@ class Furnace {
         TextureLoader textures(scene, library, notes);
         LightGroup equalEnergy;
         equalEnergy.spectrum = Curve::constant(1);
-        const Detector observer = standardObserver(library);
-        TermBuilder builder(grid, observer, {equalEnergy}, Only::reflection, textures, world_, terms_, notes);
+        const Eye eye = standardEye(library);
+        TermBuilder builder(grid, eye, {equalEnergy}, Only::reflection, textures, world_, terms_, notes);
         builder.add(material, 0);
     }
     [[nodiscard]] size_t terms() const { return terms_.count(); }

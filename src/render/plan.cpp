@@ -1,7 +1,7 @@
 #include "render/plan.h"
 
 #include "base/text.h"
-#include "colour/detector.h"
+#include "colour/observe.h"
 #include "render/range_check.h"
 #include "render/samples.h"
 #include "render/texels.h"
@@ -295,8 +295,9 @@ Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& l
     const auto resolved = [&](const Emitter& emitter) {
         return emitter.texture ? withMeanOf(emitter, textures) : emitter;
     };
-    std::vector<LightGroup> groups = groupLights(scene, flat, plan.view, observer, resolved,
-                                                 plan.world.lights, isEqualEnergy(settings.substitute));
+    std::vector<LightGroup> groups =
+        groupLights(scene, flat, plan.view, observer, resolved, plan.world.lights,
+                    isEqualEnergy(settings.substitute), settings.lightsApart);
     if (!isEqualEnergy(settings.substitute)) checkRange(plan.wavelengths, groups, observer, notes);
 
     std::vector<std::uint32_t> number;
@@ -305,7 +306,7 @@ Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& l
     if (!groups.empty()) {
         plan.whiteName = groups.front().text;
         const std::array<const Curve*, 1> light{&groups.front().spectrum};
-        plan.white = respondXyz(observer, light);
+        plan.white = settings.eye ? seenXyz(*settings.eye, light) : respondXyz(observer, light);
     }
     if (!(plan.white[1] > 0)) {
         plan.whiteName = "E";
@@ -316,8 +317,9 @@ Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& l
         value /= y;
 
     plan.groups = static_cast<std::uint32_t>(groups.size());
-    TermBuilder builder(plan.wavelengths, observer, std::move(groups), settings.only, textures, plan.world,
-                        plan.terms, notes);
+    const Eye standard = standardEye(library);
+    TermBuilder builder(plan.wavelengths, settings.eye ? *settings.eye : standard, std::move(groups),
+                        settings.only, textures, plan.world, plan.terms, notes);
     const bool asGiven = settings.substitute == Substitute::none;
     const Emitter* background = asGiven && !settings.bake && scene.background ? &*scene.background : nullptr;
     const TextureUse* backdrop = background ? backdropOf(scene, shot.pass) : nullptr;
@@ -330,7 +332,7 @@ Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& l
         const Material worn = substituted(*material, settings.substitute);
         builder.add(worn, worn.emission ? absoluteFactor(*worn.emission, observer) : 0);
     }
-    addGeometry(plan.world, flat, plan.view, number);
+    if (settings.geometry) addGeometry(plan.world, flat, plan.view, number);
 
     plan.features = featuresOf(materials, plan.world, background || backdrop);
     plan.defines = definesOf(plan.world, plan.samples, plan.view.baked);

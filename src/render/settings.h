@@ -12,6 +12,8 @@
 
 namespace spectrad {
 
+struct Eye;
+
 /// Which part of what comes from surfaces is wanted (render --only).
 enum class Only { everything, reflection, fluorescence };
 
@@ -45,6 +47,9 @@ struct RenderSettings {
     std::optional<Bake> bake;      ///< instead of a picture; the camera is then the eye
     int cubeFace = 0;              ///< of a camera of type cube: which of its six faces
     std::uint64_t stripBytes = 0;  ///< device memory a strip may take; 0: chosen from the device
+    const Eye* eye = nullptr;      ///< who sees the preview and the white; CIE 1931 if not said
+    bool lightsApart = false;      ///< a group for each light: its spectrum and amount are in its terms alone
+    bool geometry = true;          ///< false: materials, lights and terms only, no triangles
 };
 
 /// Rows of the finished image, top to bottom, without gaps: bands[(row * bands + band) * width + x] in

@@ -37,19 +37,28 @@ std::vector<std::uint32_t> spansOf(const std::vector<float>& spectra, size_t ban
     return spans;
 }
 
-sd_frame makeFrame(const Plan& plan, const LanePattern& lanes) {
-    sd_frame frame{};
-    frame.pixels_per_slope = plan.view.pixelsPerSlope;
-    frame.slope_per_subpixel = static_cast<float>(1 / (SD_SUBPIXEL * plan.view.pixelsPerSlope));
-    frame.orthographic = plan.view.orthographic;
-    frame.baked = plan.view.baked;
-    const Affine toWorld = inverse(plan.view.worldToCamera);
+/// Pixels from row to row: whole blocks.
+int pitchOf(int width) {
+    return (width + SD_BLOCK - 1) / SD_BLOCK * SD_BLOCK;
+}
+
+void setView(sd_frame& frame, const View& view) {
+    frame.pixels_per_slope = view.pixelsPerSlope;
+    frame.slope_per_subpixel = static_cast<float>(1 / (SD_SUBPIXEL * view.pixelsPerSlope));
+    frame.orthographic = view.orthographic;
+    frame.baked = view.baked;
+    const Affine toWorld = inverse(view.worldToCamera);
     for (size_t row = 0; row < 3; ++row)
         for (size_t column = 0; column < 3; ++column)
             frame.to_world[3 * row + column] = static_cast<float>(toWorld.m[4 * row + column]);
-    frame.width = plan.view.width;
-    frame.height = plan.view.height;
-    frame.pitch = (frame.width + SD_BLOCK - 1) / SD_BLOCK * SD_BLOCK;
+    frame.width = view.width;
+    frame.height = view.height;
+    frame.pitch = pitchOf(view.width);
+}
+
+sd_frame makeFrame(const Plan& plan, const LanePattern& lanes) {
+    sd_frame frame{};
+    setView(frame, plan.view);
     frame.samples = plan.samples;
     constexpr int maxTileSide = 32;  // what the edge functions of cover_tiles can cross in 32 bits
     const auto fits = [&](int side) {
@@ -72,7 +81,8 @@ Stages::Stages(const Device& device, const Plan& plan, const LanePattern& lanes)
       slots_(static_cast<size_t>(lanes.slots)),
       geometry_(device, {"transform.cl", "clear.cl", "small.cl", "clip.cl", "tiles.cl"},
                 geometryDefines(plan, device)),
-      shading_(device, {"materials.cl", "light.cl", "expand.cl"}, withDevice(plan.defines, device)),
+      shading_(device, {"materials.cl", "light.cl", "expand.cl", "show.cl"},
+               withDevice(plan.defines, device)),
       transform_(geometry_.kernel("transform")),
       clear_(geometry_.kernel("clear_keys")),
       small_(geometry_.kernel("cover_small")),
@@ -86,7 +96,8 @@ Stages::Stages(const Device& device, const Plan& plan, const LanePattern& lanes)
       scanTerms_(shading_.kernel("scan_terms")),
       list_(shading_.kernel("list_terms")),
       light_(shading_.kernel("light_block")),
-      expand_(shading_.kernel("expand")) {
+      expand_(shading_.kernel("expand")),
+      show_(shading_.kernel("show")) {
     uploadWorld();
     laneX_.upload(device_, lanes.laneX.data(), lanes.laneX.size(), "the sample pattern");
     laneY_.upload(device_, lanes.laneY.data(), lanes.laneY.size(), "the sample pattern");
@@ -301,28 +312,65 @@ bool Stages::light(int firstRow, int rows) {
     return true;
 }
 
-void Stages::expand(int from, int rows, DeviceArray<float>& cube, DeviceArray<float>& preview) {
+void Stages::expandRows(int from, int rows, const DeviceArray<float>& spectra,
+                        const DeviceArray<std::uint32_t>& spans, size_t bands, DeviceArray<float>& out,
+                        const char* what) {
     const auto pitch = static_cast<size_t>(frame_.pitch), lines = static_cast<size_t>(rows);
     const auto rowBlocks = static_cast<std::uint32_t>(frame_.pitch / SD_BLOCK);
     const std::uint32_t blocks = rowBlocks * static_cast<std::uint32_t>(rows);
     const bool scalar = device_.body().vectorWidth() == 1;
-    const auto run = [&](const DeviceArray<float>& spectra, const DeviceArray<std::uint32_t>& spans,
-                         size_t bands, DeviceArray<float>& out, const char* what) {
-        out.reserve(device_, lines * bands * pitch, what);
-        expand_.set("g", image_.g.buffer())
-            .set("block_first", image_.first.buffer())
-            .set("block_term", image_.term.buffer())
-            .set("spectra", spectra.buffer())
-            .set("spans", spans.buffer())
-            .set("bands", static_cast<cl_uint>(bands))
-            .set("frame", frame_)
-            .set("first_block", static_cast<cl_uint>(from) * rowBlocks)
-            .set("blocks", blocks)
-            .set("out", out.buffer())
-            .run(size_t{blocks} * (scalar ? SD_BLOCK : 1), scalar ? SD_BLOCK : 1);
-    };
-    run(spectra_, spans_, plan_.terms.bands, cube, "a strip of the image");
-    run(previewSpectra_, previewSpans_, 3, preview, "a strip of the preview");
+    out.reserve(device_, lines * bands * pitch, what);
+    expand_.set("g", image_.g.buffer())
+        .set("block_first", image_.first.buffer())
+        .set("block_term", image_.term.buffer())
+        .set("spectra", spectra.buffer())
+        .set("spans", spans.buffer())
+        .set("bands", static_cast<cl_uint>(bands))
+        .set("frame", frame_)
+        .set("first_block", static_cast<cl_uint>(from) * rowBlocks)
+        .set("blocks", blocks)
+        .set("out", out.buffer())
+        .run(size_t{blocks} * (scalar ? SD_BLOCK : 1), scalar ? SD_BLOCK : 1);
+}
+
+void Stages::expand(int from, int rows, DeviceArray<float>& cube, DeviceArray<float>& preview) {
+    expandRows(from, rows, spectra_, spans_, plan_.terms.bands, cube, "a strip of the image");
+    expandRows(from, rows, previewSpectra_, previewSpans_, 3, preview, "a strip of the preview");
+}
+
+void Stages::expandPreview(const std::vector<float>& spectra, DeviceArray<float>& preview) {
+    shownColours_.upload(device_, spectra.data(), spectra.size(), "the terms' colours");
+    const std::vector<std::uint32_t> spans = spansOf(spectra, 3);
+    shownSpans_.upload(device_, spans.data(), spans.size(), "the terms' colours");
+    expandRows(0, image_.rows, shownColours_, shownSpans_, 3, preview, "the preview");
+}
+
+void Stages::show(const std::vector<float>& spectra, const ShownThrough& through,
+                  DeviceArray<std::uint32_t>& pixels) {
+    shownColours_.upload(device_, spectra.data(), spectra.size(), "the terms' colours");
+    threshold_.upload(device_, through.threshold.data(), through.threshold.size(), "the display's codes");
+    codeStart_.upload(device_, through.start.data(), through.start.size(), "the display's codes");
+    const bool scalar = device_.body().vectorWidth() == 1;
+    pixels.reserve(device_, static_cast<size_t>(image_.rows) * static_cast<size_t>(frame_.pitch),
+                   "the picture");
+    sd_show matrix{};
+    std::copy(through.matrix.begin(), through.matrix.end(), matrix.to_signal);
+    show_.set("g", image_.g.buffer())
+        .set("block_first", image_.first.buffer())
+        .set("block_term", image_.term.buffer())
+        .set("colours", shownColours_.buffer())
+        .set("matrix", matrix)
+        .set("threshold", threshold_.buffer())
+        .set("code_start", codeStart_.buffer())
+        .set("blocks", image_.blocks)
+        .set("out", pixels.buffer())
+        .run(size_t{image_.blocks} * (scalar ? SD_BLOCK : 1), scalar ? SD_BLOCK : 1);
+}
+
+void Stages::move(const View& view, const std::vector<sd_draw>& draws, const std::vector<sd_light>& lights) {
+    setView(frame_, view);
+    draws_.upload(device_, draws.data(), draws.size(), "the scene's placements");
+    lights_.upload(device_, lights.data(), lights.size(), "the lights");
 }
 
 MappedFloats::MappedFloats(const Device& device, const cl::Buffer& buffer, size_t count)

@@ -6,7 +6,10 @@
 #include "render/plan.h"
 #include "render/samples.h"
 
+#include <array>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace spectrad {
 
@@ -21,11 +24,20 @@ struct TermImage {
     DeviceArray<float> g;             ///< SD_BLOCK a term
 };
 
+/// From sums of terms' previews to a display's codes.
+struct ShownThrough {
+    std::array<float, 9> matrix{};    ///< rows: linear Rec.709 preview to the display's linear signals
+    std::vector<float> threshold;     ///< 255: the signal from which on code k + 1 is shown instead of k
+    std::vector<std::uint8_t> start;  ///< SD_SHOW_CELLS: the code at the start of each cell of 0…1
+};
+
 class Stages {
   public:
     /// Uploads the world and builds the kernels that the plan needs.
     Stages(const Device& device, const Plan& plan, const LanePattern& lanes);
 
+    /// Another camera, and what it changes; then transform() again.
+    void move(const View& view, const std::vector<sd_draw>& draws, const std::vector<sd_light>& lights);
     void transform();
     /// Coverage of `rows` rows: fills keys().
     void cover(int firstRow, int rows);
@@ -34,12 +46,24 @@ class Stages {
     /// Rows [from, from + rows) of the lit strip, into cube [row][band][pitch] and preview [row][3][pitch].
     void expand(int from, int rows, DeviceArray<float>& cube, DeviceArray<float>& preview);
 
+    /// Preview alone, from `preview` spectra (three a term) of the caller's, into [row][3][pitch].
+    void expandPreview(const std::vector<float>& spectra, DeviceArray<float>& preview);
+    /// The lit strip as a display shows it, 0xAABBGGRR a pixel, [row][pitch] (kernels/show.cl).
+    void show(const std::vector<float>& spectra, const ShownThrough& through,
+              DeviceArray<std::uint32_t>& pixels);
+    /// Gives the term image away and takes another (or an empty one) to fill: for images kept in several
+    /// strips.
+    void exchange(TermImage& other) { std::swap(image_, other); }
+
     [[nodiscard]] int pitch() const { return frame_.pitch; }
     [[nodiscard]] const TermImage& terms() const { return image_; }
     [[nodiscard]] const DeviceArray<std::uint64_t>& keys() const { return keys_; }
 
   private:
     void uploadWorld();
+    void expandRows(int from, int rows, const DeviceArray<float>& spectra,
+                    const DeviceArray<std::uint32_t>& spans, size_t bands, DeviceArray<float>& out,
+                    const char* what);
     void coverLarge(std::uint32_t large, std::uint32_t clipped);
     std::uint32_t readNumber(const cl::Buffer& buffer, size_t index);
     void zero(const cl::Buffer& buffer, size_t words);
@@ -52,7 +76,7 @@ class Stages {
 
     Program geometry_, shading_;
     Kernel transform_, clear_, small_, setup_, clip_, count_, scan_, deal_, tiles_;
-    Kernel find_, scanTerms_, list_, light_, expand_;
+    Kernel find_, scanTerms_, list_, light_, expand_, show_;
 
     DeviceArray<float> position_, normal_, camera_, cameraNormal_, coordinates_, texels_, spectra_,
         previewSpectra_;
@@ -65,6 +89,9 @@ class Stages {
     DeviceArray<sd_light> lights_;
     DeviceArray<sd_texture> textures_;
     DeviceArray<std::uint32_t> spans_, previewSpans_;
+    DeviceArray<float> shownColours_, threshold_;
+    DeviceArray<std::uint32_t> shownSpans_;
+    DeviceArray<std::uint8_t> codeStart_;
     DeviceArray<std::int32_t> laneX_, laneY_, used_;
 
     DeviceArray<std::uint64_t> keys_;

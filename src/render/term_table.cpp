@@ -1,8 +1,8 @@
 #include "render/term_table.h"
 
 #include "base/text.h"
-#include "colour/detector.h"
 #include "colour/display.h"
+#include "colour/observe.h"
 #include "spectrum/projection.h"
 
 #include <fmt/format.h>
@@ -12,10 +12,10 @@
 
 namespace spectrad {
 
-TermBuilder::TermBuilder(const Wavelengths& grid, const Detector& observer, std::vector<LightGroup> groups,
-                         Only only, TextureLoader& textures, World& world, TermTable& terms, Notes& notes)
+TermBuilder::TermBuilder(const Wavelengths& grid, const Eye& eye, std::vector<LightGroup> groups, Only only,
+                         TextureLoader& textures, World& world, TermTable& terms, Notes& notes)
     : grid_(grid),
-      observer_(observer),
+      eye_(eye),
       groups_(std::move(groups)),
       only_(only),
       textures_(textures),
@@ -25,24 +25,76 @@ TermBuilder::TermBuilder(const Wavelengths& grid, const Detector& observer, std:
     terms_.bands = grid.size();
 }
 
+namespace {
+
+float toFloat(double value) {
+    const auto f = static_cast<float>(value);
+    if (!std::isfinite(f))
+        throw InputError("a light's radiance of " + shortest(value) +
+                         " is beyond the range of float (3.4e38)");
+    return f;
+}
+
+/// The layout's convention for previews: linear Rec.709 of ∫ L x̄ dλ and so on, without 683 lm/W.
+std::array<float, 3> previewFrom(const Triple& xyz) {
+    static const Display rec709 = srgbDisplay();
+    const Triple rgb = rec709.fromXyz * xyz;
+    return {toFloat(rgb[0]), toFloat(rgb[1]), toFloat(rgb[2])};
+}
+
+Triple added(Triple xyz, const Eye& eye, std::span<const Curve* const> product, double factor) {
+    const Triple seen = seenXyz(eye, product);
+    for (size_t c = 0; c < 3; ++c)
+        xyz[c] += seen[c] * factor / luminousEfficacy;
+    return xyz;
+}
+
+TermRecipe recipeOf(const std::vector<Summand>& sum, const std::vector<LightGroup>& groups, Only only) {
+    TermRecipe recipe;
+    recipe.group = TermRecipe::unknown;
+    // What glows under a lamp depends on it by more than a factor.
+    if (sum.size() != 1 || only == Only::fluorescence) return recipe;
+    const Summand& part = sum.front();
+    std::uint32_t group = TermRecipe::none;
+    for (const Curve* curve : part.product) {
+        const auto light = std::find_if(groups.begin(), groups.end(),
+                                        [&](const LightGroup& g) { return &g.spectrum == curve; });
+        if (light == groups.end())
+            recipe.response.push_back(*curve);
+        else
+            group = static_cast<std::uint32_t>(light - groups.begin());
+    }
+    recipe.factor = part.factor;
+    if (group != TermRecipe::none) {
+        if (groups[group].factor == 0) return recipe;  // a light that is off hides the factor
+        recipe.factor /= groups[group].factor;
+    }
+    recipe.group = group;
+    return recipe;
+}
+
+}  // namespace
+
+std::array<float, 3> relit(const TermRecipe& recipe, const LightGroup& group, const Eye& eye) {
+    std::vector<const Curve*> product;
+    double factor = recipe.factor;
+    if (recipe.group != TermRecipe::none) {
+        product.push_back(&group.spectrum);
+        factor *= group.factor;
+    }
+    for (const Curve& curve : recipe.response)
+        product.push_back(&curve);
+    return previewFrom(added({}, eye, product, factor));
+}
+
 void TermBuilder::addTerm(const std::vector<Summand>& sum, bool clip) {
-    const auto toFloat = [](double value) {
-        const auto f = static_cast<float>(value);
-        if (!std::isfinite(f))
-            throw InputError("a light's radiance of " + shortest(value) +
-                             " is beyond the range of float (3.4e38)");
-        return f;
-    };
     std::vector<double> bands(grid_.size(), 0.0);
     Triple xyz{};
     for (const Summand& part : sum) {
         const std::vector<double> values = project(grid_, part.product);
         for (size_t j = 0; j < bands.size(); ++j)
             bands[j] += values[j] * part.factor;
-        const std::vector<double> channels = respond(observer_, part.product);
-        // The layout's convention for previews: ∫ L x̄ dλ and so on, without 683 lm/W.
-        for (size_t c = 0; c < 3; ++c)
-            xyz[c] += channels[c] * part.factor / luminousEfficacy;
+        xyz = added(xyz, eye_, part.product, part.factor);
     }
     if (clip) {
         const auto below = std::count_if(bands.begin(), bands.end(), [](double v) { return v < 0; });
@@ -54,9 +106,9 @@ void TermBuilder::addTerm(const std::vector<Summand>& sum, bool clip) {
     }
     for (double value : bands)
         terms_.spectra.push_back(toFloat(value));
-    static const Display rec709 = srgbDisplay();
-    for (double value : rec709.fromXyz* xyz)
-        terms_.preview.push_back(toFloat(value));
+    const std::array<float, 3> preview = previewFrom(xyz);
+    terms_.preview.insert(terms_.preview.end(), preview.begin(), preview.end());
+    terms_.recipes.push_back(recipeOf(sum, groups_, only_));
 }
 
 void TermBuilder::addGroupTerms(const Curve& response, double factor) {

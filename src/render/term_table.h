@@ -10,6 +10,7 @@
 #include "scene/scene.h"
 #include "spectrum/wavelengths.h"
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -17,14 +18,28 @@
 
 namespace spectrad {
 
-struct Detector;
+struct Eye;
+
+/// How a term depends on the light: a light's spectrum times one curve times a number; or on no light; or in
+/// a way that only the material knows (fluorescence), when `group` is `unknown`.
+struct TermRecipe {
+    static constexpr std::uint32_t none = 0xffffffff, unknown = 0xfffffffe;
+    std::uint32_t group = none;   ///< light group
+    std::vector<Curve> response;  ///< factors of the term's spectrum beside the light's
+    double factor = 1;            ///< to be multiplied by the group's
+};
+
+/// The term's preview for another spectrum or amount of its light, or another eye: three integrals, no bands.
+/// Throws InputError where it is beyond the range of float.
+[[nodiscard]] std::array<float, 3> relit(const TermRecipe& recipe, const LightGroup& group, const Eye& eye);
 
 /// c of L(x, λ) = Σ g(x) c(λ). Unit of c times unit of g is W·m⁻²·sr⁻¹·nm⁻¹ (g: 1, or 1/m² under point
 /// lights).
 struct TermTable {
     size_t bands = 0;
-    std::vector<float> spectra;  ///< [term][band]
-    std::vector<float> preview;  ///< [term][3]: linear Rec.709 of the exact spectrum, bands do not enter
+    std::vector<float> spectra;       ///< [term][band]
+    std::vector<float> preview;       ///< [term][3]: linear Rec.709 of the exact spectrum, bands do not enter
+    std::vector<TermRecipe> recipes;  ///< [term]
     [[nodiscard]] size_t count() const { return preview.size() / 3; }
 };
 
@@ -38,7 +53,7 @@ struct Summand {
 /// [lobe][function][light group].
 class TermBuilder {
   public:
-    TermBuilder(const Wavelengths& grid, const Detector& observer, std::vector<LightGroup> groups, Only only,
+    TermBuilder(const Wavelengths& grid, const Eye& eye, std::vector<LightGroup> groups, Only only,
                 TextureLoader& textures, World& world, TermTable& terms, Notes& notes);
 
     /// Material 0 of the world; without a background it has no terms.
@@ -95,7 +110,7 @@ class TermBuilder {
                        const std::vector<Curve>& spectra);
 
     const Wavelengths& grid_;
-    const Detector& observer_;
+    const Eye& eye_;
     std::vector<LightGroup> groups_;
     Only only_;
     TextureLoader& textures_;

@@ -40,6 +40,25 @@ View makeCubeView(const Camera& camera, const Affine& toWorld, int face, int sid
     return view;
 }
 
+sd_draw drawOf(const Affine& to) {
+    sd_draw draw{};
+    std::copy(to.m.begin(), to.m.end(), draw.to_camera);
+    // Cofactors take normals along; their sign follows the determinant's, so mirrored objects keep their
+    // outside. Scaled to stay in float's range whatever the lengths.
+    const auto& m = to.m;
+    const std::array<double, 9> cofactor{
+        m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
+        m[2] * m[9] - m[1] * m[10], m[0] * m[10] - m[2] * m[8], m[1] * m[8] - m[0] * m[9],
+        m[1] * m[6] - m[2] * m[5],  m[2] * m[4] - m[0] * m[6],  m[0] * m[5] - m[1] * m[4]};
+    double largest = 0;
+    for (double c : cofactor)
+        largest = std::max(largest, std::abs(c));
+    const double scale = (to.determinant() < 0 ? -1 : 1) / (largest > 0 ? largest : 1);
+    for (size_t i = 0; i < 9; ++i)
+        draw.normal[i] = static_cast<float>(cofactor[i] * scale);
+    return draw;
+}
+
 namespace {
 
 constexpr size_t most = 0xfffffffe;
@@ -64,26 +83,6 @@ double tolerance(const Shape& shape, const Affine& toWorld, const View& view) {
         pixel *= std::max(distance, 0.01 * radius * scale);
     }
     return std::max(0.1 * pixel / scale, 1e-7 * radius);
-}
-
-void addDraw(World& world, const Affine& toWorld, const View& view) {
-    const Affine to = view.worldToCamera * toWorld;
-    sd_draw draw{};
-    std::copy(to.m.begin(), to.m.end(), draw.to_camera);
-    // Cofactors take normals along; their sign follows the determinant's, so mirrored objects keep their
-    // outside. Scaled to stay in float's range whatever the lengths.
-    const auto& m = to.m;
-    const std::array<double, 9> cofactor{
-        m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8],
-        m[2] * m[9] - m[1] * m[10], m[0] * m[10] - m[2] * m[8], m[1] * m[8] - m[0] * m[9],
-        m[1] * m[6] - m[2] * m[5],  m[2] * m[4] - m[0] * m[6],  m[0] * m[5] - m[1] * m[4]};
-    double largest = 0;
-    for (double c : cofactor)
-        largest = std::max(largest, std::abs(c));
-    const double scale = (to.determinant() < 0 ? -1 : 1) / (largest > 0 ? largest : 1);
-    for (size_t i = 0; i < 9; ++i)
-        draw.normal[i] = static_cast<float>(cofactor[i] * scale);
-    world.draws.push_back(draw);
 }
 
 /// A mesh to bake needs coordinates, and none so far out that the rasterizer would clip it.
@@ -112,7 +111,7 @@ void addMesh(World& world, const Mesh& given, const Affine& toWorld, const View&
     const size_t first = world.vertexDraw.size();
     if (first + mesh.position.size() > most || world.index.size() / 3 + mesh.triangles() > most)
         throw InputError("the scene has more than " + std::to_string(most) + " triangles or vertices");
-    addDraw(world, toWorld * Affine::translation(mesh.origin), view);
+    world.draws.push_back(drawOf(view.worldToCamera * toWorld * Affine::translation(mesh.origin)));
     const auto draw = static_cast<std::uint32_t>(world.draws.size() - 1);
     const Mesh* source = &mesh;
     Mesh smoothed;

@@ -28,6 +28,9 @@ struct View {
 /// for −y.
 [[nodiscard]] View makeCubeView(const Camera& camera, const Affine& toWorld, int face, int side);
 
+/// A mesh's place before the camera.
+[[nodiscard]] sd_draw drawOf(const Affine& objectToCamera);
+
 struct World {
     std::vector<float> position, normal;    ///< three a vertex, in the object space of the vertex's draw
     std::vector<float> uv;                  ///< two a vertex; empty if nothing asks for them

@@ -1,7 +1,7 @@
 // The kernels on every device against their scalar twins, bit for bit.
 #include "kernels/random_world.h"
 #include "kernels/twin.h"
-#include "render/stages.h"
+#include "render/live.h"
 
 #include <catch2/catch.hpp>
 
@@ -63,11 +63,15 @@ void compare(const Device& device, const Plan& plan) {
     const auto pitch = static_cast<size_t>(frame.pitch);
     const std::vector<float> rows =
         read<float>(device, cube.buffer(), static_cast<size_t>(height) * bands * pitch);
+    const ShownThrough through = shownThrough(diagonal({1e-3, 1e-3, 1e-3}), p3Display());
+    DeviceArray<std::uint32_t> shown;
+    stages.show(plan.terms.preview, through, shown);
+    const auto codes = read<std::uint32_t>(device, shown.buffer(), static_cast<size_t>(height) * pitch);
     const int blocksX = frame.pitch / SD_BLOCK;
     const auto first = read<std::uint32_t>(device, stages.terms().first.buffer(), stages.terms().blocks + 1);
     const auto term = read<std::uint32_t>(device, stages.terms().term.buffer(), first.back());
     const auto g = read<float>(device, stages.terms().g.buffer(), size_t{first.back()} * SD_BLOCK);
-    size_t wrongTerms = 0, wrongG = 0, wrongBands = 0;
+    size_t wrongTerms = 0, wrongG = 0, wrongBands = 0, wrongCodes = 0;
     for (int row = 0; row < height; ++row) {
         for (int column = 0; column < blocksX; ++column) {
             const size_t number = static_cast<size_t>(row * blocksX + column);
@@ -79,6 +83,11 @@ void compare(const Device& device, const Plan& plan) {
             if (ours != block.term) continue;
             const auto from = g.begin() + static_cast<std::ptrdiff_t>(size_t{first[number]} * SD_BLOCK);
             wrongG += differences({from, from + static_cast<std::ptrdiff_t>(block.g.size())}, block.g);
+            const auto code =
+                codes.begin() + static_cast<std::ptrdiff_t>(static_cast<size_t>(row) * pitch +
+                                                            static_cast<size_t>(column) * SD_BLOCK);
+            wrongCodes +=
+                !std::equal(code, code + SD_BLOCK, twin::show(block, plan.terms.preview, through).begin());
             const std::vector<float> out = twin::expand(block, plan.terms.spectra, bands);
             for (size_t band = 0; band < bands; ++band)
                 wrongBands += std::memcmp(rows.data() + (static_cast<size_t>(row) * bands + band) * pitch +
@@ -89,6 +98,7 @@ void compare(const Device& device, const Plan& plan) {
     CHECK(wrongTerms == 0);
     CHECK(wrongG == 0);
     CHECK(wrongBands == 0);
+    CHECK(wrongCodes == 0);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "render/plan.h"
 #include "render/samples.h"
+#include "render/stages.h"
 
 #include <cstdint>
 #include <vector>
@@ -36,6 +37,10 @@ template <typename Real>
 BlockOf<Real> light(const Plan& plan, const Vertices& vertices, const sd_frame& frame,
                     const LanePattern& lanes, const std::vector<std::uint64_t>& keys, int row,
                     int blockColumn, int vectorWidth);
+
+/// Codes of a block's pixels, 0xAABBGGRR.
+std::vector<std::uint32_t> show(const Block& block, const std::vector<float>& colours,
+                                const ShownThrough& through);
 
 /// [band][SD_BLOCK]
 std::vector<float> expand(const Block& block, const std::vector<float>& spectra, size_t bands);

@@ -1,0 +1,97 @@
+// spectrad view: a scene in a window, or off screen by a script.
+#include "base/files.h"
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/options.h"
+#include "image/cube.h"
+#include "image/picture.h"
+#include "spectrum/library.h"
+#include "viewer/viewer.h"
+
+#include <CLI/CLI.hpp>
+
+#include <limits>
+
+namespace spectrad {
+
+namespace {
+
+struct ViewArguments {
+    SceneArguments scene;
+    std::string offscreen, frames, script;
+    bool plain = false, quiet = false;
+};
+
+ExitCode show(const ViewArguments& arguments) {
+    Console console(arguments.quiet);
+    const RenderSettings settings = renderSettings(arguments.scene);
+    const bool offscreen = !arguments.offscreen.empty();
+    std::optional<int> frames;
+    if (!arguments.frames.empty())
+        frames = parseCount("--frames", arguments.frames, 0, std::numeric_limits<int>::max());
+    if (offscreen) {
+        if (extensionOf(arguments.offscreen) != ".png")
+            throw UsageError("--offscreen: '" + arguments.offscreen + "' must end in .png");
+        requireOther("--offscreen", arguments.offscreen, arguments.scene.file);
+        requireWritable(arguments.offscreen);
+        if (!frames) frames = 0;
+    }
+    std::vector<view::Action> actions;
+    if (!arguments.script.empty()) actions = view::parseScript(readFile(arguments.script), arguments.script);
+
+    const Device device = Device::open(deviceNumber(arguments.scene.device));
+    const Library library = Library::open();
+    auto scene = std::make_unique<view::SceneSubject>(arguments.scene.file, loadOptions(arguments.scene),
+                                                      settings, device, library, console.notes());
+    console.printNotes();
+    const int width = scene->width(), height = scene->height();
+    view::Session session(std::move(scene), library, console.notes());
+    const std::unique_ptr<view::Face> face =
+        offscreen ? view::openOffscreen(width, height)
+                  : view::openWindow(width, height, "Spectrad: " + arguments.scene.file);
+    view::Viewer viewer(*face, session);
+    viewer.showPanels(!arguments.plain);
+    view::run(viewer, actions, frames);
+    if (offscreen) writePng(arguments.offscreen, viewer.picture());
+    return ExitCode::ok;
+}
+
+}  // namespace
+
+void addView(CLI::App& app, Action& action) {
+    CLI::App* command =
+        app.add_subcommand("view", "Look at a scene: change its lights, materials and observer at once");
+    auto arguments = std::make_shared<ViewArguments>();
+    command->add_option("SCENE", arguments->scene.file, "scene of Spectrad, or a model of another program")
+        ->type_name("SCENE")
+        ->required();
+    addSceneOptions(*command, arguments->scene);
+    addDeviceOption(*command, arguments->scene.device);
+    command
+        ->add_option("--offscreen", arguments->offscreen,
+                     "no window: draw in memory, and write the last frame, panels and all, as a picture")
+        ->type_name("OUT.png");
+    command
+        ->add_option("--script", arguments->script,
+                     "play these actions first, one a line (docs/format.md, \"view\")")
+        ->type_name("FILE");
+    command
+        ->add_option("--frames", arguments->frames,
+                     "frames to go on for; default: until closed, off screen 0")
+        ->type_name("N");
+    command->add_flag("--plain", arguments->plain, "no panels at first (the tab key brings them)");
+    command->add_flag("-q,--quiet", arguments->quiet, "no remarks on standard error");
+    command->footer(
+        "Colours are those of the exact spectra, as 'render' and 'observe' make them; spectra under the "
+        "pointer are on "
+        "the scene's bands, as 'measure' gives them. Exposure is measured once and then held (E measures "
+        "again). H "
+        "shows the keys.\n\n"
+        "Examples:\n"
+        "  spectrad view scene.xml\n"
+        "  spectrad view scene.xml --offscreen view.png --size 1280x720\n"
+        "  spectrad view scene.xml --offscreen view.png --script actions.txt --frames 3");
+    command->final_callback([&action, arguments] { action = [arguments] { return show(*arguments); }; });
+}
+
+}  // namespace spectrad

@@ -1,0 +1,90 @@
+// view: off screen and in a window, as a script uses it.
+#include "cli/support.h"
+#include "image/picture.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+using cli::Folder;
+using cli::Outcome;
+using cli::requireError;
+using cli::run;
+
+namespace {
+
+constexpr const char* balls = R"(<scene version="1">
+  <wavelengths from="380" to="780" step="5"/>
+  <material name="red"><diffuse reflectance="charts/colorchecker/red"/><gloss ior="1.5" roughness="0.4"/></material>
+  <node name="ball"><sphere radius="1" material="red"/></node>
+  <node name="wall" translate="0 0 -2"><plane size="9 9"/></node>
+  <light name="lamp" type="point" position="2 4 4" spectrum="illuminants/D65" intensity="300 cd"/>
+  <camera name="eye" fov="40" look-from="0 0 5" look-at="0 0 0" size="120x80"/>
+</scene>
+)";
+
+/// Largest difference of two pictures' codes.
+int codesApart(const std::filesystem::path& a, const std::filesystem::path& b) {
+    const spectrad::Picture8 one = spectrad::readPng(a), two = spectrad::readPng(b);
+    REQUIRE(one.width == two.width);
+    REQUIRE(one.height == two.height);
+    REQUIRE(one.channels == two.channels);
+    int worst = 0;
+    for (size_t i = 0; i < one.pixels.size(); ++i)
+        worst = std::max(worst, std::abs(one.pixels[i] - two.pixels[i]));
+    return worst;
+}
+
+/// False, and said, where a picture off screen cannot be had.
+bool canDraw(const Outcome& outcome) {
+    if (outcome.code == 3 && outcome.err.find("libOSMesa") != std::string::npos) {
+        WARN("skipped: " << outcome.err);
+        return false;
+    }
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return true;
+}
+
+}  // namespace
+
+TEST_CASE("the viewer's picture is that of render and observe, within one code") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    folder.write("balls.xml", balls);
+    folder.write(
+        "script.txt",
+        "screenshot first.png\nset lamp.spectrum=illuminants/A\nset exposure=auto\nscreenshot warm.png\n"
+        "pin 60 40\npins pins.csv\n");
+    if (!canDraw(run(folder,
+                     {"view", "balls.xml", "--offscreen", "last.png", "--plain", "--script", "script.txt"})))
+        return;
+    REQUIRE(run(folder, {"render", "balls.xml", "-o", "a.exr", "-q"}).code == 0);
+    REQUIRE(run(folder, {"render", "balls.xml", "-o", "b.exr", "-q", "--set", "lamp.spectrum=illuminants/A"})
+                .code == 0);
+    REQUIRE(run(folder, {"observe", "a.exr", "-o", "a.png", "-q"}).code == 0);
+    REQUIRE(run(folder, {"observe", "b.exr", "-o", "b.png", "-q"}).code == 0);
+    CHECK(codesApart(folder / "first.png", folder / "a.png") <= 1);
+    CHECK(codesApart(folder / "warm.png", folder / "b.png") <= 1);
+    CHECK(codesApart(folder / "warm.png", folder / "last.png") == 0);
+    CHECK(codesApart(folder / "first.png", folder / "warm.png") > 1);
+
+    // The spot meter's spectrum is measure's, to the last digit.
+    const auto bands = [](const std::string& csv) { return csv.substr(csv.find("\n380,")); };
+    CHECK(bands(cli::bytesOf(folder / "pins.csv")) ==
+          bands(run(folder, {"measure", "b.exr", "--at", "60,40"}).out));
+}
+
+TEST_CASE("view says in one line what is wrong") {
+    const Folder folder;
+    folder.write("balls.xml", balls);
+    requireError(run(folder, {"view", "balls.xml", "--offscreen", "x.jpg"}), 2, "must end in .png");
+    requireError(run(folder, {"view", "balls.xml", "--offscreen", "x.png", "--frames", "-1"}), 2, "--frames");
+    if (!cli::haveDevice()) return;
+    requireError(run(folder, {"view", "nothing.xml", "--offscreen", "x.png"}), 1, "nothing.xml");
+    folder.write("script.txt", "wait 1\nclick here\n");
+    requireError(run(folder, {"view", "balls.xml", "-q", "--offscreen", "x.png", "--script", "script.txt"}),
+                 1, "script.txt:2:1");
+    ::unsetenv("DISPLAY");
+    ::unsetenv("WAYLAND_DISPLAY");
+    requireError(run(folder, {"view", "balls.xml", "-q", "--frames", "1"}), 3, "window");
+}

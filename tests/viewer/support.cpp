@@ -1,0 +1,63 @@
+#include "viewer/support.h"
+
+#include "support/temporary_folder.h"
+
+#include <catch2/catch.hpp>
+
+namespace spectrad::view::test {
+
+bool canView() {
+    static const bool can = [] {
+        if (listDevices().empty()) {
+            WARN("skipped: no OpenCL device");
+            return false;
+        }
+        try {
+            (void)openOffscreen(8, 8);
+        } catch (const MachineError& error) {
+            WARN("skipped: " << error.what());
+            return false;
+        }
+        return true;
+    }();
+    return can;
+}
+
+const std::string& smallScene() {
+    static const std::string text = R"(<scene version="1">
+  <wavelengths from="380" to="780" step="5"/>
+  <material name="red"><diffuse reflectance="charts/colorchecker/red"/></material>
+  <material name="lacquer"><diffuse reflectance="charts/colorchecker/cyan"/><gloss ior="1.5" roughness="0.3"/></material>
+  <material name="gold"><conductor ior="metals/Au" roughness="0.4"/></material>
+  <material name="marker">
+    <diffuse reflectance="constant:0.2"/>
+    <fluorescence excitation="gaussian:400,40" emission="gaussian:520,40" yield="0.8"/>
+  </material>
+  <node name="floor" translate="0 -1 0" rotate="1 0 0 -90"><plane size="9 9" material="red"/></node>
+  <node name="ball" translate="-1.3 0 0"><sphere radius="1" material="lacquer"/></node>
+  <node name="nugget" translate="1.3 0 0"><sphere radius="0.8" material="gold"/></node>
+  <node name="note" translate="0 1 -1"><plane size="1 1" material="marker"/></node>
+  <light name="lamp" type="point" position="2 4 4" spectrum="illuminants/D65" intensity="300 cd"/>
+  <light name="fill" type="ambient" spectrum="illuminants/A" luminance="5 cd/m2"/>
+  <camera name="eye" fov="40" look-from="0 1 7" look-at="0 0 0" size="96x64"/>
+</scene>
+)";
+    return text;
+}
+
+Desk::Desk(const std::string& sceneText, RenderSettings settings)
+    : library(Library::open()), device(Device::open(std::nullopt)) {
+    const TemporaryFolder folder;
+    auto scene = std::make_unique<SceneSubject>(folder.write("scene.xml", sceneText), LoadOptions{}, settings,
+                                                device, library, notes);
+    const int width = scene->width(), height = scene->height();
+    session = std::make_unique<Session>(std::move(scene), library, notes);
+    face = openOffscreen(width, height);
+    viewer = std::make_unique<Viewer>(*face, *session);
+}
+
+void Desk::play(const std::string& script) {
+    run(*viewer, parseScript(script, "script"), 0);
+}
+
+}  // namespace spectrad::view::test

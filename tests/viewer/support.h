@@ -1,0 +1,36 @@
+// A scene in a viewer off screen, within the test's process.
+#pragma once
+
+#include "spectrum/library.h"
+#include "viewer/viewer.h"
+
+#include <memory>
+#include <string>
+
+namespace spectrad::view::test {
+
+/// False, and said, where no OpenCL device or no OSMesa is.
+[[nodiscard]] bool canView();
+
+/// Lambert, a coat, a metal and fluorescence under two lamps, 96 x 64 pixels.
+[[nodiscard]] const std::string& smallScene();
+
+/// All that a viewer needs, in the order in which it goes.
+class Desk {
+  public:
+    explicit Desk(const std::string& sceneText, RenderSettings settings = {});
+    Desk(const Desk&) = delete;
+    Desk& operator=(const Desk&) = delete;
+
+    /// Plays a script.
+    void play(const std::string& script);
+
+    Notes notes;
+    Library library;
+    Device device;
+    std::unique_ptr<Session> session;
+    std::unique_ptr<Face> face;
+    std::unique_ptr<Viewer> viewer;
+};
+
+}  // namespace spectrad::view::test

@@ -1,0 +1,94 @@
+// A scene on a device: the term image stays there, a look costs three floats a term.
+#pragma once
+
+#include "render/light_groups.h"
+#include "render/live.h"
+#include "render/passes.h"
+#include "scene/load.h"
+#include "viewer/subject.h"
+
+#include <optional>
+
+namespace spectrad::view {
+
+/// Where the camera stands; kept apart from the scene's own so that the first picture is exactly its.
+struct Pose {
+    Vec3 eye, target, up;
+    double pixelsPerSlopeOverHeight = 1;  ///< see View: zoom that does not depend on the window's size
+    bool orthographic = false;
+};
+
+/// What a pixel sees.
+struct Hit {
+    std::string node, material;  ///< names; empty where the scene gives none
+    Index materialIndex = 0;
+    Vec3 place;  ///< in the world, metres
+};
+
+class SceneSubject : public Subject {
+  public:
+    /// Throws InputError, UsageError, MachineError as loading and planning do.
+    SceneSubject(const std::filesystem::path& file, const LoadOptions& load, const RenderSettings& settings,
+                 const Device& device, const Library& library, Notes& notes);
+
+    [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] const Plan& plan() const { return live_->plan(); }
+    [[nodiscard]] Look firstLook() const;
+
+    [[nodiscard]] const Pose& pose() const { return pose_; }
+    void setPose(const Pose& pose);
+    void setSize(int width, int height);
+    /// Samples a pixel from now on; the plan's own if not said.
+    void setSamples(std::optional<int> samples) { samples_ = samples; }
+    [[nodiscard]] int samples() const { return samples_.value_or(finalSamples_); }
+    [[nodiscard]] int finalSamples() const { return finalSamples_; }
+    /// Middle and radius of everything there is, metres.
+    [[nodiscard]] std::pair<Vec3, double> bounds() const;
+    [[nodiscard]] std::optional<Hit> hitAt(int x, int y);
+
+    [[nodiscard]] int width() const override { return view_.width; }
+    [[nodiscard]] int height() const override { return view_.height; }
+    [[nodiscard]] const Wavelengths& wavelengths() const override { return live_->plan().wavelengths; }
+    [[nodiscard]] std::string unit() const override { return "W.m^-2.sr^-1.nm^-1"; }
+    void show(const Look& look, const Shown& shown, std::vector<std::uint32_t>& pixels) override;
+    void showMixed(const Look& a, const Look& b, double mix, const Shown& shown,
+                   std::vector<std::uint32_t>& pixels) override;
+    [[nodiscard]] ChannelImage xyz(const Look& look) override;
+    [[nodiscard]] std::vector<double> spectrumAt(int x, int y, const Look& look) override;
+    [[nodiscard]] White white(const Look& look) override;
+    [[nodiscard]] double whiteAmount(const Look& look) override;
+
+  private:
+    /// Terms under one look.
+    struct Table {
+        std::uint64_t version = 0;
+        std::map<Index, std::string> reflectances;  ///< by their texts
+        std::vector<LightGroup> groups;
+        std::vector<TermRecipe> recipes;
+        std::vector<float> spectra;  ///< of a plan's bands, for terms whose recipe is unknown
+        std::vector<float> colours;
+        std::shared_ptr<const Eye> eye;
+    };
+    [[nodiscard]] const Table& table(const Look& look);
+    [[nodiscard]] Scene sceneOf(const Look& look) const;
+    [[nodiscard]] std::vector<LightGroup> groupsOf(const Scene& scene) const;
+    /// All terms anew, materials included.
+    void plan(Table& table, const Look& look, const Scene& changed);
+    void resolve();
+    void place();
+
+    const Library& library_;
+    Device device_;
+    Notes& notes_;
+    RenderSettings settings_;
+    Scene scene_;
+    FlatScene flat_;
+    std::unique_ptr<LiveImage> live_;
+    std::vector<Table> tables_;  ///< the last few looks'
+    View view_;
+    Pose pose_;
+    int finalSamples_ = 16;
+    std::optional<int> samples_;
+};
+
+}  // namespace spectrad::view
