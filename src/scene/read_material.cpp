@@ -68,7 +68,7 @@ Roughness readRoughness(const Element& element) {
         if (value < 0 || value > 1) element.fail("roughness", "expected numbers from 0 to 1");
     const Roughness roughness{values.front(), values.back()};
     const auto [low, high] = std::minmax(roughness.u, roughness.v);
-    if (high > mostRatio * low)
+    if (high > mostRatio * low * (1 + 1e-9))
         element.fail("roughness",
                      fmt::format("along and across differ too much (allowed: one up to {} times the other)",
                                  mostRatio));
