@@ -14,7 +14,7 @@ build: $(PROGRAM)
 
 ##demo            install what is missing, build, render the showcase scenes into out/
 .PHONY: demo
-PICTURES := colorchecker colorchecker-FL11 still-life pavilion chess figure5 display
+PICTURES := colorchecker colorchecker-FL11 still-life pavilion chess figure5 display gloss-ladder metal-ladder fluorescence
 demo: packages $(PICTURES:%=out/%.exr) $(PICTURES:%=out/%.png)
 	@echo "Spectral images (W.m^-2.sr^-1.nm^-1): $(PICTURES:%=out/%.exr)"
 	@echo "Pictures of them for the screen:      $(PICTURES:%=out/%.png)"
@@ -92,6 +92,8 @@ $(PROGRAM): build/build.ninja always
 SPECTRA := $(shell find spectra -name '*.csv')
 FL11 := --set lamp.spectrum=illuminants/FL11
 EXPOSURE_chess := -0.4
+EXPOSURE_gloss-ladder := -1
+EXPOSURE_fluorescence := -0.2
 EXPOSURE_colorchecker := -0.13
 EXPOSURE_colorchecker-FL11 := -0.13
 define RENDER

@@ -55,7 +55,7 @@ static void shade_light(sd_lobe lobe, global const sd_piece* tables, sd_light li
 #endif
 #ifdef HAS_COATED
         case SD_LOBE_COATED: {
-            const vfloat through = at_view.first * look_up(tables + lobe.table, cell_of(cos_light));
+            const vfloat through = at_view.first * first_at(lobe, tables, s, to_light, cos_light);
             add_painted(lobe, p, s, irradiance * through, lit, groups, term);
             break;
         }
@@ -92,7 +92,7 @@ static void shade(sd_material material, global const sd_lobe* lobes, global cons
 /* g: SD_BLOCK floats a term of each block, from block_first[block] on; the sum over samples divided by their number.
  * pattern_x, pattern_y: PATTERN lanes' offsets; pattern_used: -1 where a lane is a sample, 0 where it only fills the slots. */
 BLOCK_GROUP kernel void light_block(global const ulong* keys, global const uint* index, global const float* camera,
-                                    global const float* camera_normal, global const float* coordinates,
+                                    global const float* camera_normal, global const float* coordinates, global const float* tangents,
                                     global const uint* triangle_material,
                                     global const sd_material* materials, global const sd_lobe* lobes,
                                     global const sd_piece* tables, global const sd_light* lights, uint light_count,
@@ -151,7 +151,7 @@ BLOCK_GROUP kernel void light_block(global const ulong* keys, global const uint*
                 if (material.terms > 0) add_to(material_sums, select((vfloat)0.0f, (vfloat)1.0f, mask));
                 continue;
             }
-            const surface s = surface_at(index + 3 * (size_t)triangle, camera, camera_normal, coordinates, frame, x, y);
+            const surface s = surface_at(index + 3 * (size_t)triangle, camera, camera_normal, coordinates, tangents, frame, x, y);
             shade(material, lobes, tables, lights, light_count, groups, s, frame, x, y, mask, p, material_sums);
         }
     }

@@ -3,6 +3,12 @@
 #include "texture.h"
 
 #define INV_PI 0.31830988618379067f
+/* Tables of a function of a direction. */
+#ifdef HAS_ANISOTROPY
+#define COEFFICIENTS(lobe) ((lobe).alpha_v != 0.0f ? SD_AZIMUTHS : 1)
+#else
+#define COEFFICIENTS(lobe) 1
+#endif
 
 /* Where a cosine falls in the tables: the piece of each lane and the place within. */
 typedef struct table_cell {
@@ -33,11 +39,27 @@ static vfloat look_up(global const sd_piece* table, table_cell at) {
 }
 #endif
 
+#include "azimuth.h"
+
 /* What a lobe needs of the view direction, the same under all lights. */
 typedef struct lobe_view {
-    vfloat first; /* the lobe's first table at the view: through, 1 - albedo, or missing */
+    vfloat first; /* the lobe's first function at the view: through, 1 - albedo, or missing */
     table_cell cell;
+#ifdef HAS_ANISOTROPY
+    vfloat azimuth;
+#endif
 } lobe_view;
+
+#if defined(HAS_ROUGH) || defined(HAS_COATED) || defined(HAS_FACETS)
+/* The lobe's first function at a light. */
+static vfloat first_at(sd_lobe lobe, global const sd_piece* tables, surface s, v3 to_light, vfloat cos_light) {
+#ifdef HAS_ANISOTROPY
+    if (lobe.alpha_v != 0.0f)
+        return fmax(look_up_round(tables + lobe.table, cell_of(cos_light), azimuth_of(lobe, local_of(s, to_light))), 0.0f);
+#endif
+    return look_up(tables + lobe.table, cell_of(cos_light));
+}
+#endif
 
 static lobe_view view_of(sd_lobe lobe, global const sd_piece* tables, surface s) {
     lobe_view v;
@@ -47,6 +69,14 @@ static lobe_view view_of(sd_lobe lobe, global const sd_piece* tables, surface s)
 #if defined(HAS_ROUGH) || defined(HAS_COATED) || defined(HAS_FACETS)
     if (lobe.type != SD_LOBE_DIFFUSE) {
         v.cell = cell_of(s.cos_view);
+#ifdef HAS_ANISOTROPY
+        v.azimuth = 0.0f;
+        if (lobe.alpha_v != 0.0f) {
+            v.azimuth = azimuth_of(lobe, local_of(s, s.view));
+            v.first = fmax(look_up_round(tables + lobe.table, v.cell, v.azimuth), 0.0f);
+            return v;
+        }
+#endif
         v.first = look_up(tables + lobe.table, v.cell);
     }
 #endif
@@ -121,15 +151,29 @@ static void facets(sd_lobe lobe, global const sd_piece* tables, surface s, v3 to
     if (lobe.alpha == 0.0f) return; /* a mirror shows no point of light that has no size */
     const v3 h = unit3(add3(to_light, s.view));
     const vfloat cos_half = dot3(s.normal, h), cos_diff = clamp(dot3(s.view, h), 0.0f, 1.0f);
-    const v3 across = cross3(s.normal, h);
-    const float a2 = lobe.alpha * lobe.alpha;
-    const vfloat width = fma(cos_half * cos_half, (vfloat)a2, dot3(across, across));
-    const vfloat shadow_view = cos_light * sqrt(fma(s.cos_view * s.cos_view, (vfloat)(1.0f - a2), (vfloat)a2));
-    const vfloat shadow_light = s.cos_view * sqrt(fma(cos_light * cos_light, (vfloat)(1.0f - a2), (vfloat)a2));
+    float a2 = lobe.alpha * lobe.alpha;
+    vfloat width, shadow_view, shadow_light;
+#ifdef HAS_ANISOTROPY
+    if (lobe.alpha_v != 0.0f) {
+        /* Burley 2012, Heitz 2014: an ellipse of slopes. */
+        const v3 l = local_of(s, to_light), v = local_of(s, s.view), m = local_of(s, h);
+        const float u2 = a2, v2 = lobe.alpha_v * lobe.alpha_v, flat = lobe.alpha_v / lobe.alpha;
+        a2 = lobe.alpha * lobe.alpha_v;
+        width = fma(m.x * m.x, (vfloat)flat, fma(m.y * m.y, (vfloat)(1.0f / flat), cos_half * cos_half * a2));
+        shadow_view = cos_light * sqrt(fma(v.x * v.x, (vfloat)u2, fma(v.y * v.y, (vfloat)v2, s.cos_view * s.cos_view)));
+        shadow_light = s.cos_view * sqrt(fma(l.x * l.x, (vfloat)u2, fma(l.y * l.y, (vfloat)v2, cos_light * cos_light)));
+    } else
+#endif
+    {
+        const v3 across = cross3(s.normal, h);
+        width = fma(cos_half * cos_half, (vfloat)a2, dot3(across, across));
+        shadow_view = cos_light * sqrt(fma(s.cos_view * s.cos_view, (vfloat)(1.0f - a2), (vfloat)a2));
+        shadow_light = s.cos_view * sqrt(fma(cos_light * cos_light, (vfloat)(1.0f - a2), (vfloat)a2));
+    }
     const vfloat shape = (a2 * INV_PI) / (width * width) * 0.5f / (shadow_view + shadow_light) * irradiance;
-    const vfloat multiple = at_view.first * look_up(tables + lobe.table, cell_of(cos_light)) * lobe.multiple * irradiance;
+    const vfloat multiple = at_view.first * first_at(lobe, tables, s, to_light, cos_light) * lobe.multiple * irradiance;
     const table_cell facing = cell_of(cos_diff);
-    global const sd_piece* fresnel = tables + lobe.table + (1 + lobe.functions) * SD_CELLS;
+    global const sd_piece* fresnel = tables + lobe.table + (1 + lobe.functions) * COEFFICIENTS(lobe) * SD_CELLS;
     for (uint f = 0; f < lobe.functions; ++f) {
         vfloat g = shape * look_up(fresnel + f * SD_CELLS, facing);
         if (f == lobe.multiple_to) g += multiple;
@@ -155,10 +199,17 @@ static void uniform_light(sd_lobe lobe, global const sd_piece* tables, float sca
 #endif
 #ifdef HAS_FACETS
         case SD_LOBE_FACETS: {
-            global const sd_piece* albedo = tables + lobe.table + SD_CELLS;
-            for (uint f = 0; f < lobe.functions; ++f)
-                add_to(term + f * groups * SD_BLOCK,
-                       select((vfloat)0.0f, scale * INV_PI * look_up(albedo + f * SD_CELLS, at_view.cell), mask));
+            global const sd_piece* albedo = tables + lobe.table + COEFFICIENTS(lobe) * SD_CELLS;
+            for (uint f = 0; f < lobe.functions; ++f) {
+#ifdef HAS_ANISOTROPY
+                const vfloat back = lobe.alpha_v != 0.0f
+                                        ? look_up_round(albedo + f * SD_AZIMUTHS * SD_CELLS, at_view.cell, at_view.azimuth)
+                                        : look_up(albedo + f * SD_CELLS, at_view.cell);
+#else
+                const vfloat back = look_up(albedo + f * SD_CELLS, at_view.cell);
+#endif
+                add_to(term + f * groups * SD_BLOCK, select((vfloat)0.0f, scale * INV_PI * back, mask));
+            }
             if (lobe.multiple_to == lobe.functions)
                 add_to(term + lobe.functions * groups * SD_BLOCK, select((vfloat)0.0f, scale * INV_PI * at_view.first, mask));
             break;

@@ -29,6 +29,9 @@ typedef struct surface {
     v3 normal;   /* unit, on the seen side */
     v3 view;     /* unit, towards the viewer */
     vfloat cos_view;
+#ifdef HAS_ANISOTROPY
+    v3 tangent, bitangent; /* unit, in the surface: along the texture coordinates' u, and across it; their signs mean nothing */
+#endif
 #ifdef HAS_TEXTURE
     vfloat u, v; /* texture coordinates, (0,0) bottom left */
 #endif
@@ -44,7 +47,7 @@ typedef struct surface {
  * each sample's ray (the 2-D homogeneous form), so that no clipping or snapping enters; samples that snapping has put a little
  * outside are moved back to the edge. */
 static surface surface_at(global const uint* corner, global const float* camera, global const float* normals,
-                          global const float* coordinates, sd_frame frame,
+                          global const float* coordinates, global const float* tangents, sd_frame frame,
                           vfloat x, vfloat y) {
     const global float* p0 = camera + 3 * (size_t)corner[0];
     const global float* p1 = camera + 3 * (size_t)corner[1];
@@ -140,5 +143,16 @@ static surface surface_at(global const uint* corner, global const float* camera,
     s.normal = scale3(n, copysign((vfloat)1.0f, seen) * copysign((vfloat)1.0f, along));
 #endif
     s.cos_view = fmax(dot3(s.normal, s.view), MIN_COS_VIEW);
+#ifdef HAS_ANISOTROPY
+    const global float* g0 = tangents + 3 * (size_t)corner[0];
+    const global float* g1 = tangents + 3 * (size_t)corner[1];
+    const global float* g2 = tangents + 3 * (size_t)corner[2];
+    v3 t;
+    t.x = fma(b2, (vfloat)g2[0], fma(b1, (vfloat)g1[0], b0 * g0[0]));
+    t.y = fma(b2, (vfloat)g2[1], fma(b1, (vfloat)g1[1], b0 * g0[1]));
+    t.z = fma(b2, (vfloat)g2[2], fma(b1, (vfloat)g1[2], b0 * g0[2]));
+    s.tangent = unit3(add3(t, scale3(s.normal, -dot3(s.normal, t))));
+    s.bitangent = cross3(s.normal, s.tangent);
+#endif
     return s;
 }

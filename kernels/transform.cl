@@ -40,3 +40,15 @@ kernel void transform(global const float* position, global const float* normal, 
     camera_normal[3 * v + 1] = fma(d->normal[3], nx, fma(d->normal[4], ny, d->normal[5] * nz));
     camera_normal[3 * v + 2] = fma(d->normal[6], nx, fma(d->normal[7], ny, d->normal[8] * nz));
 }
+
+/* The same for directions in the surface, where materials want them. */
+kernel void transform_tangents(global const float* tangent, global const uint* draw, global const sd_draw* draws, uint count,
+                               global float* camera_tangent) {
+    const uint v = (uint)get_global_id(0);
+    if (v >= count) return;
+    const global sd_draw* d = draws + draw[v];
+    const double tx = tangent[3 * v], ty = tangent[3 * v + 1], tz = tangent[3 * v + 2];
+    for (int row = 0; row < 3; ++row)
+        camera_tangent[3 * v + row] =
+            (float)fma(d->to_camera[4 * row], tx, fma(d->to_camera[4 * row + 1], ty, d->to_camera[4 * row + 2] * tz));
+}

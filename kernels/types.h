@@ -109,6 +109,10 @@ typedef struct sd_piece {
     float c[4];
 } sd_piece;
 
+/* Where a surface is rougher along one axis than along the other (alpha_v != 0), functions of a direction are polynomials in a
+ * number x of its azimuth (kernels/azimuth.h), SD_AZIMUTHS coefficients from the constant on, each a table as above. */
+#define SD_AZIMUTHS 8
+
 /* Tables of a lobe, each SD_CELLS pieces from `table` on.
  *   COATED: what the coat lets through.
  *   ROUGH:  1 - directional albedo of single scattering.
@@ -129,7 +133,7 @@ typedef struct sd_lobe {
     sd_int steps;        /* of a painted lobe: terms for each interval between bands, see texture.h */
     float inside;        /* COATED: reflectance of the coat from inside; ROUGH: 1 - mean albedo; 0: linear in the texel */
     sd_uint mapping;     /* of the texture: SD_MAP_ */
-    sd_uint pad_;
+    float alpha_v;       /* FACETS, and COATED under such: GGX width across the texture's u where alpha is the one along it; 0: alpha all round */
 } sd_lobe;
 
 #define SD_MAP_SURFACE 0 /* the surface's coordinates */

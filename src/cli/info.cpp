@@ -37,12 +37,14 @@ bool contains(const std::array<std::string_view, N>& names, std::string_view nam
 Kind kindOf(const std::string& text) {
     const std::string extension = extensionOf(text);
     std::error_code ignored;
+    // A scene's name is enough: with scene.img and scene.hdr beside it, it would look like their cube.
+    if (extension == ".xml") return Kind::scene;
     if (fs::is_regular_file(text, ignored)) {
         if (looksLikeCube(text)) return Kind::cube;
         return contains(spectrumExtensions, extension) ? Kind::spectrum : Kind::scene;
     }
     if (contains(cubeExtensions, extension)) return Kind::cube;
-    return extension == ".xml" || fs::is_directory(text, ignored) ? Kind::scene : Kind::spectrum;
+    return fs::is_directory(text, ignored) ? Kind::scene : Kind::spectrum;
 }
 
 ExitCode inform(const InfoArguments& arguments) {

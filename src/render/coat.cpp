@@ -61,19 +61,30 @@ double interpolationError(const Nodes& nodes, const Curve& ior, double from, dou
     return worst;
 }
 
-Coat coatOf(const AngleFunction& fresnel, double alpha) {
+Coat coatOf(const AngleFunction& fresnel, Widths widths) {
     Coat coat;
-    coat.facets = facetAlbedos({fresnel}, alpha);
+    coat.facets = facetAlbedos({fresnel}, widths);
     coat.again = multipleScattering(cosineMean(fresnel), coat.facets.whiteMean);
     // What misses less than a millionth sends nothing round again.
     const double missingMean = 1 - coat.facets.whiteMean;
     coat.multiple = missingMean > 1e-6 ? coat.again * std::numbers::inv_pi / missingMean : 0;
     const double again = missingMean > 1e-6 ? coat.again : 0;
-    coat.albedo = [single = coat.facets.albedo.front(), white = coat.facets.white, again](double c) {
-        return std::clamp(single(c) + (1 - white(c)) * again, 0.0, 1.0);
-    };
-    coat.through = [albedo = coat.albedo](double c) { return 1 - albedo(c); };
-    coat.meanThrough = cosineMean(coat.through);
+    const DirectionFunction &single = coat.facets.albedo.front(), &white = coat.facets.white;
+    if (white.size() == 1) {
+        coat.albedo = {[s = single[0], w = white[0], again](double c) {
+            return std::clamp(s(c) + (1 - w(c)) * again, 0.0, 1.0);
+        }};
+        coat.through = {[albedo = coat.albedo[0]](double c) { return 1 - albedo(c); }};
+    } else {
+        for (size_t k = 0; k < white.size(); ++k) {
+            const double unit = k == 0 ? 1 : 0;
+            coat.albedo.push_back([s = single[k], w = white[k], again, unit](double c) {
+                return s(c) + (unit - w(c)) * again;
+            });
+            coat.through.push_back([albedo = coat.albedo[k], unit](double c) { return unit - albedo(c); });
+        }
+    }
+    coat.meanThrough = cosineMean(roundMean(coat.through, widths));
     return coat;
 }
 

@@ -27,9 +27,9 @@ struct Coat {
     FacetAlbedos facets;
     double again = 0;     ///< reflectance of light that bounces between facets
     double multiple = 0;  ///< factor of missing · missing, 1/sr
-    AngleFunction albedo, through;
+    DirectionFunction albedo, through;
     double meanThrough = 1;
 };
-[[nodiscard]] Coat coatOf(const AngleFunction& fresnel, double alpha);
+[[nodiscard]] Coat coatOf(const AngleFunction& fresnel, Widths widths);
 
 }  // namespace spectrad

@@ -2,20 +2,20 @@
 // lobes in balance.
 #pragma once
 
-#include "render/angle_table.h"
+#include "render/anisotropy.h"
 
 #include <vector>
 
 namespace spectrad {
 
-/// Single-scattering directional albedos of GGX (Smith, height-correlated) with roughness `alpha`, for facets
-/// that reflect fresnel[i](cosine between view and facet), and for perfect mirrors.
+/// Single-scattering directional albedos of GGX (Smith, height-correlated), for facets that reflect
+/// fresnel[i](cosine between view and facet), and for perfect mirrors.
 struct FacetAlbedos {
-    std::vector<AngleFunction> albedo;  ///< one per Fresnel function
-    AngleFunction white;
+    std::vector<DirectionFunction> albedo;  ///< one per Fresnel function
+    DirectionFunction white;
     double whiteMean = 1;  ///< cosine-weighted mean of `white`
 };
-[[nodiscard]] FacetAlbedos facetAlbedos(const std::vector<AngleFunction>& fresnel, double alpha);
+[[nodiscard]] FacetAlbedos facetAlbedos(const std::vector<AngleFunction>& fresnel, Widths widths);
 
 /// Reflectance of light that bounces between facets, given their mean Fresnel reflectance: the geometric
 /// series of Kulla & Conty 2017, F² E / (1 − F (1 − E)).

@@ -98,8 +98,8 @@ double powerToIntensity(const Light& light) {
 /// Only a perfectly smooth surface shows what is behind the viewer.
 bool showsSurroundings(const Scene& scene) {
     for (const Material& m : scene.materials)
-        if ((m.gloss && m.gloss->roughness == 0) || (m.specular && m.specular->roughness == 0) ||
-            (m.conductor && m.conductor->roughness == 0))
+        if ((m.gloss && m.gloss->roughness.isMirror()) || (m.specular && m.specular->roughness.isMirror()) ||
+            (m.conductor && m.conductor->roughness.isMirror()))
             return true;
     return false;
 }

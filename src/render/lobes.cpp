@@ -18,6 +18,25 @@ namespace {
 
 constexpr double inversePi = 1 / std::numbers::pi;
 
+/// Tables of a function's coefficients; `missing`: of 1 − the function.
+void append(std::vector<std::vector<sd_piece>>& tables, const DirectionFunction& function,
+            bool missing = false) {
+    for (size_t k = 0; k < function.size(); ++k) {
+        const AngleFunction& f = function[k];
+        const double unit = k == 0 ? 1 : 0;
+        if (!missing)
+            tables.push_back(tabulate(f));
+        else if (function.size() == 1)
+            tables.push_back(tabulate([&](double c) { return std::max(0.0, 1 - f(c)); }));
+        else
+            tables.push_back(tabulate([&](double c) { return unit - f(c); }));
+    }
+}
+
+Widths widthsOf(const Roughness& roughness) {
+    return {roughness.u * roughness.u, roughness.v * roughness.v};
+}
+
 const Curve& one() {
     static const Curve curve = Curve::constant(1);
     return curve;
@@ -25,35 +44,46 @@ const Curve& one() {
 
 }  // namespace
 
-void TermBuilder::addCoatedBase(const Material& material, const Curve& weight, const AngleFunction& through,
-                                double meanThrough, double inside) {
+void TermBuilder::addCoatedBase(const Material& material, const Curve& weight,
+                                const DirectionFunction& through, double meanThrough, double inside,
+                                Widths widths) {
     Base base;
-    base.type = through ? SD_LOBE_COATED : SD_LOBE_DIFFUSE;
+    base.type = through.empty() ? SD_LOBE_DIFFUSE : SD_LOBE_COATED;
     if (&weight != &one()) base.weight = &weight;
-    if (through) base.table = addTables({tabulate(through)});
+    if (!through.empty()) {
+        std::vector<std::vector<sd_piece>> tables;
+        append(tables, through);
+        base.table = addTables(tables);
+        base.widths = widths;
+    }
     base.meanThrough = meanThrough;
     base.inside = inside;
     addBase(material, base);
 }
 
+void TermBuilder::setWidths(sd_lobe& lobe, Widths widths) {
+    lobe.alpha = static_cast<float>(widths.u);
+    if (!widths.isotropic()) lobe.alpha_v = static_cast<float>(widths.v);
+}
+
 void TermBuilder::addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra,
-                            double alpha, const std::optional<TextureUse>& reflects) {
+                            Widths widths, const std::optional<TextureUse>& reflects) {
     if (reflects) {
         addReflection(*reflects, fresnel, spectra);
         return;
     }
-    const FacetAlbedos facets = facetAlbedos(fresnel, alpha);
-    std::vector<std::vector<sd_piece>> tables{
-        tabulate([&](double c) { return std::max(0.0, 1 - facets.white(c)); })};
-    for (const AngleFunction& f : facets.albedo)
-        tables.push_back(tabulate(f));
+    const FacetAlbedos facets = facetAlbedos(fresnel, widths);
+    std::vector<std::vector<sd_piece>> tables;
+    append(tables, facets.white, true);
+    for (const DirectionFunction& f : facets.albedo)
+        append(tables, f);
     for (const AngleFunction& f : fresnel)
         tables.push_back(tabulate(f));
     sd_lobe lobe = beginLobe(SD_LOBE_FACETS);
     lobe.table = addTables(tables);
     lobe.functions = static_cast<sd_uint>(fresnel.size());
     lobe.multiple_to = lobe.functions;
-    lobe.alpha = static_cast<float>(alpha);
+    setWidths(lobe, widths);
     const double missing = 1 - facets.whiteMean;
     lobe.multiple = static_cast<float>(missing > 1e-6 ? inversePi / missing : 0);
     for (const Curve& spectrum : spectra)
@@ -76,17 +106,17 @@ void TermBuilder::addFacets(const std::vector<AngleFunction>& fresnel, const std
 void TermBuilder::addGloss(const Material& material) {
     const Curve& ior = material.gloss->ior.curve();
     const Nodes nodes = nodesFor(ior, grid_.nm.front(), grid_.nm.back());
-    const double alpha = material.gloss->roughness * material.gloss->roughness;
+    const Widths widths = widthsOf(material.gloss->roughness);
     for (size_t i = 0; i < nodes.at.size(); ++i) {
         const double n = nodes.at[i];
         const Curve polynomial =
             Curve::combined({ior}, [nodes, i](std::span<const double> v) { return nodes.weight(i, v[0]); });
         const Curve& weight = nodes.at.size() == 1 ? one() : polynomial;
-        const Coat coat = coatOf([n](double c) { return fresnelDielectric(c, n); }, alpha);
+        const Coat coat = coatOf([n](double c) { return fresnelDielectric(c, n); }, widths);
         // What a diffuse base sends up is let through as what comes down, per solid angle inside (n² of it):
         // 1 − r_inside = (1 − r_outside) / n², from the reciprocity of transmission.
         const double inside = std::max(0.0, 1 - coat.meanThrough / (n * n));
-        addCoatedBase(material, weight, coat.through, coat.meanThrough, inside);
+        addCoatedBase(material, weight, coat.through, coat.meanThrough, inside, widths);
         if (only_ == Only::fluorescence) continue;
         if (material.gloss->reflects) {
             addReflection(*material.gloss->reflects, {[n](double c) { return fresnelDielectric(c, n); }},
@@ -94,12 +124,14 @@ void TermBuilder::addGloss(const Material& material) {
             continue;
         }
         sd_lobe lobe = beginLobe(SD_LOBE_FACETS);
-        lobe.table =
-            addTables({tabulate([&](double c) { return std::max(0.0, 1 - coat.facets.white(c)); }),
-                       tabulate(coat.albedo), tabulate([n](double c) { return fresnelDielectric(c, n); })});
+        std::vector<std::vector<sd_piece>> tables;
+        append(tables, coat.facets.white, true);
+        append(tables, coat.albedo);
+        tables.push_back(tabulate([n](double c) { return fresnelDielectric(c, n); }));
+        lobe.table = addTables(tables);
         lobe.functions = 1;
         lobe.multiple_to = 0;
-        lobe.alpha = static_cast<float>(alpha);
+        setWidths(lobe, widths);
         lobe.multiple = static_cast<float>(coat.multiple);
         addGroupTerms(weight);
         endLobe(lobe);
@@ -109,25 +141,25 @@ void TermBuilder::addGloss(const Material& material) {
 void TermBuilder::addSpecular(const Material& material) {
     const Curve& r0 = material.specular->reflectance.curve();
     const Nodes nodes = nodesFor(r0, grid_.nm.front(), grid_.nm.back());
-    const double alpha = material.specular->roughness * material.specular->roughness;
+    const Widths widths = widthsOf(material.specular->roughness);
     for (size_t i = 0; i < nodes.at.size(); ++i) {
         const double r = nodes.at[i];
         const Curve polynomial =
             Curve::combined({r0}, [nodes, i](std::span<const double> v) { return nodes.weight(i, v[0]); });
         const Curve& weight = nodes.at.size() == 1 ? one() : polynomial;
-        const Coat coat = coatOf([r](double c) { return fresnelSchlick(c, r); }, alpha);
-        addCoatedBase(material, weight, coat.through, coat.meanThrough, 0);
+        const Coat coat = coatOf([r](double c) { return fresnelSchlick(c, r); }, widths);
+        addCoatedBase(material, weight, coat.through, coat.meanThrough, 0, widths);
     }
     if (only_ == Only::fluorescence) return;
     addFacets(
         {[](double c) { return 1 - fresnelSchlick(c, 0); }, [](double c) { return fresnelSchlick(c, 0); }},
-        {r0, one()}, alpha, material.specular->reflects);
+        {r0, one()}, widths, material.specular->reflects);
 }
 
 void TermBuilder::addConductor(const Material& material) {
     const Conductor& metal = *material.conductor;
     const Curve &n = metal.ior.curves.at(0), &k = metal.ior.curves.at(1);
-    const double alpha = metal.roughness * metal.roughness;
+    const Widths widths = widthsOf(metal.roughness);
     // All wavelengths that any band sees: a single one has a hat that reaches to both sides.
     const double from = band(grid_, 0).from, to = std::max(band(grid_, grid_.size() - 1).to, from + 1);
     if (only_ == Only::fluorescence) return;
@@ -135,7 +167,7 @@ void TermBuilder::addConductor(const Material& material) {
     if (metal.schlick)
         notes_.say(fmt::format("material '{}': Schlick's formula is off by up to {:.3f} in reflectance",
                                material.name, schlickError(n, k, from, to)));
-    if (!basis.angle.empty()) addFacets(basis.angle, basis.spectrum, alpha, metal.reflects);
+    if (!basis.angle.empty()) addFacets(basis.angle, basis.spectrum, widths, metal.reflects);
 }
 
 std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) {
@@ -176,7 +208,7 @@ std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) 
     else if (rough)
         addRough(material);
     else if (material.diffuse || !material.fluorescence.empty())
-        addCoatedBase(material, one(), {}, 1, 0);
+        addCoatedBase(material, one(), {}, 1, 0, 0);
     return number;
 }
 

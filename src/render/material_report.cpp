@@ -99,37 +99,59 @@ class Furnace {
         FurnaceFigures f{1e300, 0, 0};
         for (int i = 0; i <= 64; ++i) {
             const double cosine = (i / 64.0) * (i / 64.0);
-            for (size_t band = 0; band < terms_.bands; ++band) {
-                const double albedo = sentBack(cosine, band);
-                f.least = std::min(f.least, albedo);
-                f.most = std::max(f.most, albedo);
+            for (double azimuth = 0; azimuth < 1.6; azimuth += brushed() ? 0.1 : 2) {
+                for (size_t band = 0; band < terms_.bands; ++band) {
+                    const double albedo = sentBack(cosine, azimuth, band);
+                    f.least = std::min(f.least, albedo);
+                    f.most = std::max(f.most, albedo);
+                }
             }
         }
         for (const sd_lobe& lobe : world_.lobes) {
             if (lobe.type != SD_LOBE_FACETS) continue;
-            const sd_piece* missing = world_.tables.data() + lobe.table;
-            f.bouncing = cosineMean([missing](double c) { return evaluate(missing, c); });
+            DirectionFunction missing;
+            for (size_t k = 0; k < coefficients(lobe); ++k)
+                missing.push_back([table = world_.tables.data() + lobe.table + k * SD_CELLS](double c) {
+                    return evaluate(table, c);
+                });
+            f.bouncing = cosineMean(roundMean(missing, widthsOf(lobe)));
         }
         return f;
     }
 
   private:
+    static size_t coefficients(const sd_lobe& lobe) { return lobe.alpha_v != 0 ? SD_AZIMUTHS : 1; }
+    static Widths widthsOf(const sd_lobe& lobe) {
+        return {double{lobe.alpha}, double{lobe.alpha_v != 0 ? lobe.alpha_v : lobe.alpha}};
+    }
+    [[nodiscard]] bool brushed() const {
+        return std::any_of(world_.lobes.begin(), world_.lobes.end(),
+                           [](const sd_lobe& lobe) { return lobe.alpha_v != 0; });
+    }
     /// As kernels/lobes.h, uniform_light().
-    [[nodiscard]] double sentBack(double cosine, size_t band) const {
+    [[nodiscard]] double sentBack(double cosine, double azimuth, size_t band) const {
         constexpr double pi = std::numbers::pi;
         double sum = 0;
         for (const sd_lobe& lobe : world_.lobes) {
             const auto term = [&](size_t function) {
                 return double{terms_.spectra[(lobe.term + function) * terms_.bands + band]};
             };
-            const sd_piece* table = world_.tables.data() + lobe.table;
-            const double first = lobe.type == SD_LOBE_DIFFUSE ? 0 : evaluate(table, cosine);
+            const auto function = [&](size_t number) {
+                const size_t count = coefficients(lobe);
+                const sd_piece* table = world_.tables.data() + lobe.table + number * count * SD_CELLS;
+                const double x = count > 1 ? azimuthPlace(widthsOf(lobe), azimuth) : 0;
+                double value = 0;
+                for (size_t k = count; k-- > 0;)
+                    value = value * x + evaluate(table + k * SD_CELLS, cosine);
+                return count > 1 && number == 0 ? std::max(value, 0.0) : value;
+            };
+            const double first = lobe.type == SD_LOBE_DIFFUSE ? 0 : function(0);
             if (lobe.type == SD_LOBE_DIFFUSE) sum += pi * term(0);
             if (lobe.type == SD_LOBE_COATED) sum += pi * term(0) * first * double{lobe.mean_through};
             if (lobe.type == SD_LOBE_ROUGH) sum += pi * (term(0) * (1 - first) + term(1) * first);
             if (lobe.type == SD_LOBE_FACETS) {
                 for (size_t f = 0; f < lobe.functions; ++f)
-                    sum += term(f) * evaluate(table + (1 + f) * SD_CELLS, cosine);
+                    sum += term(f) * function(1 + f);
                 if (lobe.multiple_to == lobe.functions) sum += term(lobe.functions) * first;
             }
         }

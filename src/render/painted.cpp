@@ -229,7 +229,10 @@ void TermBuilder::addReflection(const TextureUse& use, const std::vector<AngleFu
 sd_lobe TermBuilder::beginBase(const Base& base) const {
     sd_lobe lobe = beginLobe(base.type);
     lobe.table = base.table;
-    if (base.type == SD_LOBE_COATED) lobe.mean_through = static_cast<float>(base.meanThrough);
+    if (base.type == SD_LOBE_COATED) {
+        lobe.mean_through = static_cast<float>(base.meanThrough);
+        setWidths(lobe, base.widths);
+    }
     return lobe;
 }
 

@@ -144,6 +144,7 @@ std::vector<std::string> definesOf(const World& world, int samples, bool baked) 
         if (lobe.type == SD_LOBE_ROUGH) defines.insert("HAS_ROUGH");
         if (lobe.type == SD_LOBE_COATED) defines.insert("HAS_COATED");
         if (lobe.type == SD_LOBE_FACETS) defines.insert("HAS_FACETS");
+        if (lobe.alpha_v != 0) defines.insert("HAS_ANISOTROPY");
     }
     for (const std::string& define : textureDefines(world))
         defines.insert(define);

@@ -84,6 +84,7 @@ Stages::Stages(const Device& device, const Plan& plan, const LanePattern& lanes)
       shading_(device, {"materials.cl", "light.cl", "expand.cl", "show.cl"},
                withDevice(plan.defines, device)),
       transform_(geometry_.kernel("transform")),
+      tangents_(geometry_.kernel("transform_tangents")),
       clear_(geometry_.kernel("clear_keys")),
       small_(geometry_.kernel("cover_small")),
       setup_(geometry_.kernel("setup_large")),
@@ -111,6 +112,7 @@ void Stages::uploadWorld() {
     };
     up(position_, world.position, "the scene's vertices");
     up(normal_, world.normal, "the scene's normals");
+    up(tangent_, world.tangent, "the scene's tangents");
     up(vertexDraw_, world.vertexDraw, "the scene's vertices");
     up(draws_, world.draws, "the scene's placements");
     up(index_, world.index, "the scene's triangles");
@@ -128,6 +130,7 @@ void Stages::uploadWorld() {
     up(previewSpectra_, plan_.terms.preview, "the terms' colours");
     camera_.reserve(device_, size_t{3} * vertices_, "the transformed vertices");
     cameraNormal_.reserve(device_, size_t{3} * vertices_, "the transformed normals");
+    cameraTangent_.reserve(device_, std::max<size_t>(world.tangent.size(), 1), "the transformed tangents");
     screen_.reserve(device_, vertices_, "the transformed vertices");
     largeList_.reserve(device_, triangles_, "the lists of triangles");
     clipList_.reserve(device_, triangles_, "the lists of triangles");
@@ -149,6 +152,13 @@ void Stages::transform() {
         .set("camera", camera_.buffer())
         .set("camera_normal", cameraNormal_.buffer())
         .set("screen", screen_.buffer())
+        .run(vertices_, 64);
+    if (plan_.world.tangent.empty()) return;
+    tangents_.set("tangent", tangent_.buffer())
+        .set("draw", vertexDraw_.buffer())
+        .set("draws", draws_.buffer())
+        .set("count", vertices_)
+        .set("camera_tangent", cameraTangent_.buffer())
         .run(vertices_, 64);
 }
 
@@ -290,6 +300,7 @@ bool Stages::light(int firstRow, int rows) {
         .set("camera", camera_.buffer())
         .set("camera_normal", cameraNormal_.buffer())
         .set("coordinates", coordinates_.buffer())
+        .set("tangents", cameraTangent_.buffer())
         .set("triangle_material", triangleMaterial_.buffer())
         .set("materials", materials_.buffer())
         .set("lobes", lobes_.buffer())

@@ -75,11 +75,11 @@ class Stages {
     size_t slots_ = 1;
 
     Program geometry_, shading_;
-    Kernel transform_, clear_, small_, setup_, clip_, count_, scan_, deal_, tiles_;
+    Kernel transform_, tangents_, clear_, small_, setup_, clip_, count_, scan_, deal_, tiles_;
     Kernel find_, scanTerms_, list_, light_, expand_, show_;
 
-    DeviceArray<float> position_, normal_, camera_, cameraNormal_, coordinates_, texels_, spectra_,
-        previewSpectra_;
+    DeviceArray<float> position_, normal_, tangent_, camera_, cameraNormal_, cameraTangent_, coordinates_,
+        texels_, spectra_, previewSpectra_;
     DeviceArray<std::uint32_t> vertexDraw_, index_, triangleMaterial_;
     DeviceArray<sd_draw> draws_;
     DeviceArray<sd_vertex> screen_;

@@ -2,7 +2,7 @@
 // no position in it.
 #pragma once
 
-#include "render/angle_table.h"
+#include "render/anisotropy.h"
 #include "render/light_groups.h"
 #include "render/settings.h"
 #include "render/texture.h"
@@ -75,6 +75,7 @@ class TermBuilder {
     [[nodiscard]] sd_lobe beginLobe(int type) const;
     void endLobe(const sd_lobe& lobe);
     std::uint32_t addTables(const std::vector<std::vector<sd_piece>>& tables);
+    static void setWidths(sd_lobe& lobe, Widths widths);
 
     /// What the diffuse part of a material lies under.
     struct Base {
@@ -82,6 +83,7 @@ class TermBuilder {
         const Curve* weight = nullptr;  ///< one more factor of the spectrum
         std::uint32_t table = 0;
         double meanThrough = 1, inside = 0;  ///< of the coat
+        Widths widths = 0;                   ///< the coat's
     };
     void addBase(const Material& material, const Base& base);
     void addTexturedBase(const Material& material, const Base& base);
@@ -102,10 +104,10 @@ class TermBuilder {
     std::uint32_t strengthTexture(const TextureUse& use);
     std::uint32_t shareTexture(const Select& select);
     /// Diffuse base under a coat, its terms weighted by `weight` (one factor of the spectrum).
-    void addCoatedBase(const Material& material, const Curve& weight, const AngleFunction& through,
-                       double meanThrough, double inside);
-    void addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra, double alpha,
-                   const std::optional<TextureUse>& reflects);
+    void addCoatedBase(const Material& material, const Curve& weight, const DirectionFunction& through,
+                       double meanThrough, double inside, Widths widths);
+    void addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra,
+                   Widths widths, const std::optional<TextureUse>& reflects);
     void addReflection(const TextureUse& use, const std::vector<AngleFunction>& fresnel,
                        const std::vector<Curve>& spectra);
 

@@ -1,6 +1,7 @@
 #include "render/world.h"
 
 #include "base/error.h"
+#include "render/tangents.h"
 
 #include <algorithm>
 #include <array>
@@ -85,6 +86,11 @@ double tolerance(const Shape& shape, const Affine& toWorld, const View& view) {
     return std::max(0.1 * pixel / scale, 1e-7 * radius);
 }
 
+bool wantsTangents(const World& world) {
+    return std::any_of(world.lobes.begin(), world.lobes.end(),
+                       [](const sd_lobe& lobe) { return lobe.alpha_v != 0; });
+}
+
 /// A mesh to bake needs coordinates, and none so far out that the rasterizer would clip it.
 void checkCoordinates(const Mesh& mesh, const View& view) {
     if (mesh.uv.empty())
@@ -129,6 +135,9 @@ void addMesh(World& world, const Mesh& given, const Affine& toWorld, const View&
         for (const auto& t : source->uv)
             world.uv.insert(world.uv.end(), t.begin(), t.end());
     }
+    if (wantsTangents(world))
+        for (const auto& t : tangentsOf(*source))
+            world.tangent.insert(world.tangent.end(), t.begin(), t.end());
     world.vertexDraw.insert(world.vertexDraw.end(), source->position.size(), draw);
     world.index.reserve(world.index.size() + source->index.size());
     for (std::uint32_t i : source->index)

@@ -32,8 +32,10 @@ struct View {
 [[nodiscard]] sd_draw drawOf(const Affine& objectToCamera);
 
 struct World {
-    std::vector<float> position, normal;    ///< three a vertex, in the object space of the vertex's draw
-    std::vector<float> uv;                  ///< two a vertex; empty if nothing asks for them
+    std::vector<float> position, normal;  ///< three a vertex, in the object space of the vertex's draw
+    std::vector<float> uv;                ///< two a vertex; empty if nothing asks for them
+    std::vector<float>
+        tangent;  ///< three a vertex, as normals; empty if all materials are the same all round
     std::vector<std::uint32_t> vertexDraw;  ///< one a vertex
     std::vector<sd_draw> draws;
     std::vector<std::uint32_t> index;             ///< three a triangle

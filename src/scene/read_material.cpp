@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace spectrad {
 
 namespace {
@@ -55,6 +57,24 @@ Spectrum readIndex(Reading& reading, const Element& element, size_t curves) {
     return index;
 }
 
+/// "0.3", or "0.3 0.1": along and across the texture coordinates' u.
+Roughness readRoughness(const Element& element) {
+    constexpr double mostRatio = 5;
+    if (!element.has("roughness")) return {};
+    if (element.text("roughness").find_first_of(" \t\n") == std::string::npos)
+        return element.number("roughness", 0, zeroToOne);
+    const std::vector<double> values = element.numbers("roughness", {2});
+    for (double value : values)
+        if (value < 0 || value > 1) element.fail("roughness", "expected numbers from 0 to 1");
+    const Roughness roughness{values.front(), values.back()};
+    const auto [low, high] = std::minmax(roughness.u, roughness.v);
+    if (high > mostRatio * low * (1 + 1e-9))
+        element.fail("roughness",
+                     fmt::format("along and across differ too much (allowed: one up to {} times the other)",
+                                 mostRatio));
+    return roughness;
+}
+
 Fluorescence readFluorescence(Reading& reading, const Element& element) {
     Fluorescence result;
     result.where = element.where();
@@ -94,13 +114,12 @@ Material readMaterial(Reading& reading, const Element& element) {
         if (kind == "diffuse") {
             material.diffuse = readDiffuse(reading, lobe);
         } else if (kind == "gloss") {
-            material.gloss = {readIndex(reading, lobe, 1), lobe.number("roughness", 0, zeroToOne),
-                              readReflects(reading, lobe)};
+            material.gloss = {readIndex(reading, lobe, 1), readRoughness(lobe), readReflects(reading, lobe)};
         } else if (kind == "specular") {
             material.specular = {reading.spectrum(lobe, "reflectance", Role::reflectance),
-                                 lobe.number("roughness", 0, zeroToOne), readReflects(reading, lobe)};
+                                 readRoughness(lobe), readReflects(reading, lobe)};
         } else if (kind == "conductor") {
-            material.conductor = {readIndex(reading, lobe, 2), lobe.number("roughness", 0, zeroToOne),
+            material.conductor = {readIndex(reading, lobe, 2), readRoughness(lobe),
                                   lobe.choice<bool>("fresnel", {{"exact", false}, {"schlick", true}}, false),
                                   readReflects(reading, lobe)};
         } else if (kind == "fluorescence") {

@@ -97,20 +97,28 @@ struct Diffuse {
     std::optional<Select> select;
     double roughnessDegrees = 0;  ///< Oren–Nayar's σ; 0 is Lambert
 };
-/// Dielectric coat; GGX alpha = roughness².
+/// Of a glossy surface, 0…1; GGX alpha is its square. Along the texture coordinates' u and across it.
+struct Roughness {
+    double u = 0, v = 0;
+    Roughness() = default;
+    Roughness(double both) : u(both), v(both) {}
+    Roughness(double along, double across) : u(along), v(across) {}
+    [[nodiscard]] bool isMirror() const { return u == 0; }
+};
+/// Dielectric coat.
 struct Gloss {
     Spectrum ior;
-    double roughness = 0;
+    Roughness roughness;
     std::optional<TextureUse> reflects{};  ///< of a mirror (roughness 0): what it shows
 };
 struct Specular {
     Spectrum reflectance;  ///< at normal incidence
-    double roughness = 0;
+    Roughness roughness;
     std::optional<TextureUse> reflects{};  ///< of a mirror (roughness 0): what it shows
 };
 struct Conductor {
     Spectrum ior;  ///< two curves, n and k
-    double roughness = 0;
+    Roughness roughness;
     bool schlick = false;
     std::optional<TextureUse> reflects{};  ///< of a mirror (roughness 0): what it shows
 };

@@ -99,3 +99,11 @@ TEST_CASE("info on a scene reports its materials: fluorophores, matrices, Fresne
                          Catch::Contains("total radiance factor"));
     CHECK_THAT(text, !Catch::Contains("material   wall"));
 }
+
+TEST_CASE("info on a scene is on the scene, with its own ENVI image beside it") {
+    const Folder folder;
+    folder.write("s.xml", R"(<scene version="1"><sphere/>
+<light type="ambient" spectrum="constant:1" scale="1"/><camera size="16x16"/></scene>)");
+    REQUIRE(run(folder, {"render", "s.xml", "-o", "s.img"}).code == 0);
+    CHECK(run(folder, {"info", "s.xml", "--json"}).json().at("lights") == 1);
+}

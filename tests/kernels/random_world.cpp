@@ -21,7 +21,7 @@ double uniform(Random& random, double from, double to) {
 
 /// A lobe with tables of its own; `functions` angle functions for microfacets.
 void addLobe(Plan& plan, int type, std::uint32_t& term, double alpha, std::uint32_t functions = 0,
-             bool multipleApart = false) {
+             bool multipleApart = false, double alphaAcross = 0) {
     World& world = plan.world;
     sd_lobe lobe{};
     lobe.type = type;
@@ -31,14 +31,20 @@ void addLobe(Plan& plan, int type, std::uint32_t& term, double alpha, std::uint3
     lobe.multiple_to = multipleApart ? functions : 0;
     lobe.multiple = 0.3f;
     lobe.alpha = static_cast<float>(alpha);
+    lobe.alpha_v = static_cast<float>(alphaAcross);
     lobe.mean_through = 0.9f;
-    const size_t tables = type == SD_LOBE_REFLECTION                            ? functions
-                          : type == SD_LOBE_FACETS                              ? 1 + 2 * functions
+    const size_t each = alphaAcross == 0 ? 1 : SD_AZIMUTHS;
+    const size_t tables = type == SD_LOBE_REFLECTION ? functions
+                          : type == SD_LOBE_FACETS   ? (1 + functions) * each + functions
                           : type == SD_LOBE_EMISSION || type == SD_LOBE_DIFFUSE ? 0
-                                                                                : 1;
+                                                                                : each;
     for (size_t t = 0; t < tables; ++t) {
-        const auto table =
-            tabulate([&](double c) { return fresnelDielectric(c, 1.3 + 0.2 * static_cast<double>(t)); });
+        // At the normal there is no azimuth: coefficients beyond the constant vanish.
+        const bool constant = alphaAcross == 0 || t % SD_AZIMUTHS == 0 || t >= (1 + functions) * each;
+        const auto table = tabulate([&](double c) {
+            const double f = fresnelDielectric(c, 1.3 + 0.2 * static_cast<double>(t));
+            return constant ? f : 0.1 * (1 - c) * f;
+        });
         world.tables.insert(world.tables.end(), table.begin(), table.end());
     }
     world.lobes.push_back(lobe);
@@ -82,6 +88,12 @@ void addMaterials(Plan& plan, bool backdrop) {
     begin(), addLobe(plan, SD_LOBE_ROUGH, term, 0.4), end(term);
     term = 0;
     begin(), addLobe(plan, SD_LOBE_FACETS, term, 0.09, 3, true), end(term);
+    // Rougher along one axis than along the other: a coat over its base, a metal.
+    term = 0;
+    begin(), addLobe(plan, SD_LOBE_COATED, term, 0.2, 0, false, 0.5),
+        addLobe(plan, SD_LOBE_FACETS, term, 0.2, 1, false, 0.5), end(term);
+    term = 0;
+    begin(), addLobe(plan, SD_LOBE_FACETS, term, 0.4, 2, true, 0.15), end(term);
     // Lambert, coat and rough diffuse over textures: every filter, both ways beyond the border, turned,
     // masked; and glowing.
     for (const TextureFilter filter : {TextureFilter::bilinear, TextureFilter::nearest, TextureFilter::mip}) {
@@ -176,19 +188,13 @@ Plan emptyPlan(int samples, bool orthographic, int width, int height) {
     plan.view.worldToCamera = Affine::rotation({1, 2, 3}, 40);
     plan.view.pixelsPerSlope = orthographic ? height / 4.0 : height * 0.9;
     plan.wavelengths.nm = {400, 450, 500, 550, 600, 650, 700};
-    plan.defines = {"HAS_COATED",
-                    "HAS_FACETS",
-                    "HAS_ROUGH",
-                    "HAS_TEXTURE",
-                    "HAS_UNIFORM",
-                    "HAS_POINT",
-                    "HAS_MIP",
-                    "HAS_TEXTURE_CURVE",
-                    "HAS_TEXTURE_PLACE",
-                    "HAS_MAPPING",
-                    "HAS_SPOT",
-                    "HAS_DIRECTIONAL",
-                    "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
+    plan.defines = {"HAS_COATED",        "HAS_FACETS",
+                    "HAS_ROUGH",         "HAS_ANISOTROPY",
+                    "HAS_TEXTURE",       "HAS_UNIFORM",
+                    "HAS_POINT",         "HAS_MIP",
+                    "HAS_TEXTURE_CURVE", "HAS_TEXTURE_PLACE",
+                    "HAS_MAPPING",       "HAS_SPOT",
+                    "HAS_DIRECTIONAL",   "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
     sd_draw draw{};
     draw.to_camera[0] = draw.to_camera[5] = draw.to_camera[10] = 1;
     draw.normal[0] = draw.normal[4] = draw.normal[8] = 1;
@@ -204,6 +210,8 @@ void addVertex(World& world, double x, double y, double z, Random& random) {
         world.position.push_back(static_cast<float>(v));
     for (int i = 0; i < 3; ++i)
         world.normal.push_back(static_cast<float>(uniform(random, -1, 1)));
+    for (const double along : {0.8, -0.5, 0.3})  // neighbours' agree as neighbours' do
+        world.tangent.push_back(static_cast<float>(along + uniform(random, -0.1, 0.1)));
     world.vertexDraw.push_back(0);
     for (int i = 0; i < 2; ++i)
         world.uv.push_back(static_cast<float>(uniform(random, -0.3, 1.4)));

@@ -12,7 +12,7 @@
 namespace spectrad::twin {
 
 struct Vertices {
-    std::vector<float> camera, normal;  // three a vertex
+    std::vector<float> camera, normal, tangent;  // three a vertex
     std::vector<sd_vertex> screen;
 };
 Vertices transform(const World& world, const sd_frame& frame);

@@ -42,6 +42,14 @@ Vertices transform(const World& world, const sd_frame& frame) {
                 std::fma(n[0], world.normal[3 * v],
                          std::fma(n[1], world.normal[3 * v + 1], n[2] * world.normal[3 * v + 2])));
         }
+        if (!world.tangent.empty()) {
+            const double tx = world.tangent[3 * v], ty = world.tangent[3 * v + 1],
+                         tz = world.tangent[3 * v + 2];
+            for (size_t row = 0; row < 3; ++row) {
+                const double* m = d.to_camera + 4 * row;
+                out.tangent.push_back(static_cast<float>(std::fma(m[0], tx, std::fma(m[1], ty, m[2] * tz))));
+            }
+        }
         const bool flat = frame.orthographic || frame.baked;
         const double depth = frame.baked ? 1.0 : -p[2], reach = flat ? 1.0 : depth;
         const double sx = frame.baked ? (double{world.uv[2 * v]} - 0.5) * frame.width

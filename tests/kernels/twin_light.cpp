@@ -43,6 +43,7 @@ struct SurfaceOf {
     Real u, v;
     Real ux, vx, uy, vy;  // change from pixel to pixel
     Real x, y;            // the sample, SD_SUBPIXEL-ths of a pixel from the image's centre
+    VectorOf<Real> tangent, bitangent;
 };
 
 template <typename Real>
@@ -96,10 +97,11 @@ SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd
     const VectorOf<Real> e1{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]},
         e2{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
     const VectorOf<Real> face = crossed(e1, e2);
-    const Real seen = dot(face, s.view), along = dot(face, normal);
+    const Real seen = dot(face, s.view), outward = dot(face, normal);
     normal = unit(normal);
-    s.normal = frame.baked ? normal
-                           : scaled(normal, std::copysign(Real(1.0), seen) * std::copysign(Real(1.0), along));
+    s.normal = frame.baked
+                   ? normal
+                   : scaled(normal, std::copysign(Real(1.0), seen) * std::copysign(Real(1.0), outward));
     s.cosView = std::fmax(dot(s.normal, s.view), Real(1e-5f));
     if (!world.uv.empty()) {
         const auto t = corners(world.uv, 2);
@@ -127,6 +129,15 @@ SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd
             s.vx = s.uy = 0;
         }
     }
+    if (!world.tangent.empty()) {
+        const auto t = corners(vertices.tangent, 3);
+        const VectorOf<Real> along{mixed(b0, t[0][0], b1, t[1][0], b2, t[2][0]),
+                                   mixed(b0, t[0][1], b1, t[1][1], b2, t[2][1]),
+                                   mixed(b0, t[0][2], b1, t[1][2], b2, t[2][2])};
+        const VectorOf<Real> back = scaled(s.normal, -dot(s.normal, along));
+        s.tangent = unit<Real>({along.x + back.x, along.y + back.y, along.z + back.z});
+        s.bitangent = crossed(s.normal, s.tangent);
+    }
     return s;
 }
 
@@ -148,6 +159,38 @@ template <typename Real>
 Real lookUp(const sd_piece* table, CellOf<Real> at) {
     const float* c = table[at.cell].c;
     return std::fma(at.t, std::fma(at.t, std::fma(at.t, c[3], c[2]), c[1]), c[0]);
+}
+
+template <typename Real>
+VectorOf<Real> localOf(const SurfaceOf<Real>& s, VectorOf<Real> d) {
+    return {dot(s.tangent, d), dot(s.bitangent, d), dot(s.normal, d)};
+}
+template <typename Real>
+Real azimuthOf(const sd_lobe& lobe, VectorOf<Real> d) {
+    const Real u = lobe.alpha, v = lobe.alpha_v, low = std::fmin(u, v), high = std::fmax(u, v);
+    const Real shift = Real(0.15f) * high, most = Real(1.0) / (low + shift),
+               least = Real(1.0) / (high + shift);
+    const Real u2 = d.x * d.x, v2 = d.y * d.y, across = u2 + v2;
+    const Real square = std::fma(v2, v * v, u2 * (u * u));
+    const Real width = std::sqrt(square / (across == Real(0.0) ? Real(1.0) : across));
+    const Real x = (Real(2.0) / (width + shift) - (most + least)) / (most - least);
+    return std::fmin(std::fmax(x, -Real(1.0)), Real(1.0));
+}
+/// A function of a direction: a table, or where the lobe is not the same all round a polynomial of tables.
+template <typename Real>
+Real lookUp(const sd_lobe& lobe, const sd_piece* table, CellOf<Real> at, Real azimuth) {
+    if (lobe.alpha_v == 0) return lookUp(table, at);
+    Real sum = lookUp(table + (SD_AZIMUTHS - 1) * SD_CELLS, at);
+    for (int k = SD_AZIMUTHS - 2; k >= 0; --k)
+        sum = std::fma(sum, azimuth, lookUp(table + k * SD_CELLS, at));
+    return sum;
+}
+/// The lobe's first function.
+template <typename Real>
+Real firstAt(const sd_lobe& lobe, const sd_piece* table, const SurfaceOf<Real>& s, VectorOf<Real> direction,
+             Real cosine) {
+    if (lobe.alpha_v == 0) return lookUp(table, cellOf(cosine));
+    return std::fmax(lookUp(lobe, table, cellOf(cosine), azimuthOf(lobe, localOf(s, direction))), Real(0.0));
 }
 
 template <typename Real>
@@ -288,7 +331,10 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
         }
         const sd_piece* table = world.tables.data() + lobe.table;
         const CellOf<Real> viewCell = cellOf(s.cosView);
-        const Real first = lobe.type == SD_LOBE_DIFFUSE ? Real(0.0) : lookUp(table, viewCell);
+        const Real first =
+            lobe.type == SD_LOBE_DIFFUSE ? Real(0.0) : firstAt(lobe, table, s, s.view, s.cosView);
+        const Real azimuth = lobe.alpha_v == 0 ? Real(0.0) : azimuthOf(lobe, localOf(s, s.view));
+        const std::uint32_t each = lobe.alpha_v == 0 ? 1 : SD_AZIMUTHS;  // tables of a function
         for (const sd_light& light : world.lights) {
             const size_t base = call;
             call += callsALight;
@@ -304,7 +350,8 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
                 if (lobe.type == SD_LOBE_FACETS) {
                     for (std::uint32_t f = 0; f < lobe.functions; ++f)
                         add(base + f, term + f * groups,
-                            light.scale * inversePi<Real> * lookUp(table + (1 + f) * SD_CELLS, viewCell));
+                            light.scale * inversePi<Real> *
+                                lookUp(lobe, table + (1 + f) * each * SD_CELLS, viewCell, azimuth));
                     if (lobe.multiple_to == lobe.functions)
                         add(base + lobe.functions, term + lobe.functions * groups,
                             light.scale * inversePi<Real> * first);
@@ -318,7 +365,7 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
             const Real irradiance = strength * cosLight;
             if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, irradiance, groups);
             if (lobe.type == SD_LOBE_COATED)
-                paint(base, term, irradiance * (first * lookUp(table, cellOf(cosLight))), groups);
+                paint(base, term, irradiance * (first * firstAt(lobe, table, s, toLight, cosLight)), groups);
             if (lobe.type == SD_LOBE_ROUGH) {
                 const Real beyond = std::fma(-cosLight, s.cosView, dot(toLight, s.view));
                 const Real divisor = beyond > 0 ? std::fmax(cosLight, s.cosView) : Real(1.0);
@@ -332,18 +379,31 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
                 const Real cosHalf = dot(s.normal, h),
                            cosDiff = std::clamp(dot(s.view, h), Real(0.0), Real(1.0));
                 const VectorOf<Real> across = crossed(s.normal, h);
-                const Real a2 = Real(lobe.alpha) * lobe.alpha;
-                const Real width = std::fma(cosHalf * cosHalf, a2, dot(across, across));
-                const Real shadowView =
-                    cosLight * std::sqrt(std::fma(s.cosView * s.cosView, Real(1.0) - a2, a2));
-                const Real shadowLight =
-                    s.cosView * std::sqrt(std::fma(cosLight * cosLight, Real(1.0) - a2, a2));
+                Real a2 = Real(lobe.alpha) * lobe.alpha;
+                Real width = std::fma(cosHalf * cosHalf, a2, dot(across, across));
+                Real shadowView = cosLight * std::sqrt(std::fma(s.cosView * s.cosView, Real(1.0) - a2, a2));
+                Real shadowLight = s.cosView * std::sqrt(std::fma(cosLight * cosLight, Real(1.0) - a2, a2));
+                if (lobe.alpha_v != 0) {
+                    const VectorOf<Real> l3 = localOf(s, toLight), v3 = localOf(s, s.view), m = localOf(s, h);
+                    const Real u2 = a2, v2 = Real(lobe.alpha_v) * lobe.alpha_v,
+                               flat = Real(lobe.alpha_v) / lobe.alpha;
+                    a2 = Real(lobe.alpha) * lobe.alpha_v;
+                    width = std::fma(m.x * m.x, flat,
+                                     std::fma(m.y * m.y, Real(1.0) / flat, cosHalf * cosHalf * a2));
+                    shadowView =
+                        cosLight * std::sqrt(std::fma(v3.x * v3.x, u2,
+                                                      std::fma(v3.y * v3.y, v2, s.cosView * s.cosView)));
+                    shadowLight =
+                        s.cosView *
+                        std::sqrt(std::fma(l3.x * l3.x, u2, std::fma(l3.y * l3.y, v2, cosLight * cosLight)));
+                }
                 const Real shape = (a2 * inversePi<Real>) / (width * width) * Real(0.5) /
                                    (shadowView + shadowLight) * irradiance;
-                const Real multiple = first * lookUp(table, cellOf(cosLight)) * lobe.multiple * irradiance;
+                const Real multiple =
+                    first * firstAt(lobe, table, s, toLight, cosLight) * lobe.multiple * irradiance;
                 const CellOf<Real> facing = cellOf(cosDiff);
                 for (std::uint32_t f = 0; f < lobe.functions; ++f) {
-                    Real g = shape * lookUp(table + (1 + lobe.functions + f) * SD_CELLS, facing);
+                    Real g = shape * lookUp(table + ((1 + lobe.functions) * each + f) * SD_CELLS, facing);
                     if (f == lobe.multiple_to) g += multiple;
                     add(base + f, term + f * groups, g);
                 }

@@ -211,3 +211,24 @@ TEST_CASE("fluorescence costs nothing per pixel where its light factors: the sam
     CHECK(std::find(glowing.features.begin(), glowing.features.end(), "fluorescence") !=
           glowing.features.end());
 }
+
+TEST_CASE(
+    "without fluorescence no ultraviolet is read: lamps that differ below the bands make the same terms") {
+    const std::string dark = "300:0 379:0 380:1 780:1", bright = "300:5 379:5 380:1 780:1";
+    const auto terms = [&](const std::string& lobes, const std::string& spectrum) {
+        return planOf(sceneFrom(plane(lobes, lamp(spectrum)))).terms.spectra;
+    };
+    CHECK(terms(base, dark) == terms(base, bright));
+    CHECK(terms("<conductor ior=\"metals/Au\" roughness=\"0.2\"/>", dark) ==
+          terms("<conductor ior=\"metals/Au\" roughness=\"0.2\"/>", bright));
+    CHECK(terms(base + dye, dark) != terms(base + dye, bright));
+}
+
+TEST_CASE("angle tables are made for metals and coats alone") {
+    for (const std::string& lobes :
+         {base, base + dye, std::string(R"(<fluorescence excitation="gaussian:380,60"
+                                                                       emission="gaussian:520,40"/>)")})
+        CHECK(planOf(sceneFrom(plane(lobes, lamp("illuminants/D65")))).world.tables.empty());
+    CHECK_FALSE(planOf(sceneFrom(plane(base + "<gloss ior=\"1.5\"/>", lamp("illuminants/D65"))))
+                    .world.tables.empty());
+}

@@ -16,14 +16,15 @@ namespace {
 
 constexpr std::array<double, 12> ladder{0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1};
 
-/// Spheres side by side, one a step of the ladder; "{}" in `lobes` becomes the roughness × factor.
-Image furnace(const std::string& lobes, double factor = 1) {
+/// Spheres side by side, one a step of the ladder; "{}" in `lobes` becomes the roughness × factor, a second
+/// "{}" × across.
+Image furnace(const std::string& lobes, double factor = 1, double across = 1) {
     const TemporaryFolder folder;
     folder.write("perfect.csv", "wavelength_nm,n,k\n300,0.00001,100\n900,0.00001,100\n");
     std::string text = "<scene version=\"1\"><wavelengths>400 450 500 550 600 650 700</wavelengths>\n";
     for (size_t i = 0; i < ladder.size(); ++i) {
         text += fmt::format("<material name=\"m{}\">{}</material>\n", i,
-                            fmt::format(fmt::runtime(lobes), ladder[i] * factor));
+                            fmt::format(fmt::runtime(lobes), ladder[i] * factor, ladder[i] * across));
         text += fmt::format("<node translate=\"{} 0 0\"><sphere radius=\"0.5\" material=\"m{}\"/></node>\n",
                             static_cast<double>(i) + 0.5, i);
     }
@@ -73,6 +74,16 @@ TEST_CASE(
         INFO(lobes << ": " << least << " to " << most);
         CHECK(least >= 0.99f);
         CHECK(most <= 1 + 1e-3f);
+    }
+    // Rougher along one axis, up to five times, on spheres that show it from all azimuths.
+    for (const std::string& lobes :
+         {white + "<gloss ior=\"1.5\" roughness=\"{} {}\"/>",
+          std::string("<specular reflectance=\"constant:1\" roughness=\"{} {}\"/>"),
+          std::string("<conductor ior=\"perfect.csv\" roughness=\"{} {}\"/>")}) {
+        const auto [low, high] = rangeOf(furnace(lobes, 1, 0.2));
+        INFO(lobes << ": " << low << " to " << high);
+        CHECK(low >= 0.99f);
+        CHECK(high <= 1 + 1e-3f);
     }
     const auto [least, most] = rangeOf(furnace("<diffuse reflectance=\"constant:1\" roughness=\"{}\"/>", 90));
     INFO("Oren-Nayar: " << least << " to " << most);

@@ -12,20 +12,24 @@ class Reflectance {
     Reflectance(const Plan& plan, size_t material, size_t band)
         : plan_(plan), material_(plan.world.materials.at(material)), band_(band) {}
 
-    /// f(view, light), 1/sr; both unit vectors on the side of the normal (0, 0, 1).
+    /// f(view, light), 1/sr; both unit vectors on the side of the normal (0, 0, 1), texture coordinates' u
+    /// along x.
     [[nodiscard]] double operator()(Vec3 view, Vec3 light) const {
         return facets(view, light) + others(view, light);
     }
     /// What uniform light from everywhere becomes: the tables' own sum.
-    [[nodiscard]] double albedo(double cosView) const;
+    [[nodiscard]] double albedo(Vec3 view) const;
     /// ∫ f(view, light) cos θ dω by quadrature: half vectors for the facets' single scattering, directions
     /// for the rest.
-    [[nodiscard]] double integral(double cosView) const;
+    [[nodiscard]] double integral(Vec3 view) const;
 
   private:
     [[nodiscard]] double facets(Vec3 view, Vec3 light) const;  ///< single scattering
     [[nodiscard]] double others(Vec3 view, Vec3 light) const;
     [[nodiscard]] double facetsOf(const sd_lobe& lobe, Vec3 view, Vec3 light) const;
+    /// Function `number` of a lobe in a direction; u is along x.
+    [[nodiscard]] double function(const sd_lobe& lobe, size_t number, Vec3 direction) const;
+    [[nodiscard]] double fresnel(const sd_lobe& lobe, size_t number, double cosine) const;
     [[nodiscard]] double term(const sd_lobe& lobe, size_t function) const;
 
     const Plan& plan_;

@@ -73,9 +73,10 @@ TEST_CASE("directional albedos of facets agree with a quadrature over half vecto
         for (double cosine : {0.03, 0.1, 0.3, 0.6, 0.95, 1.0}) {
             CAPTURE(alpha, cosine);
             const double white = albedoByQuadrature(cosine, alpha, [](double) { return 1.0; });
-            CHECK(facets.white(cosine) == Approx(white).margin(5e-4));
-            CHECK(facets.albedo[0](cosine) == Approx(albedoByQuadrature(cosine, alpha, glass)).margin(5e-4));
-            CHECK(facets.white(cosine) <= 1);
+            CHECK(facets.white[0](cosine) == Approx(white).margin(5e-4));
+            CHECK(facets.albedo[0][0](cosine) ==
+                  Approx(albedoByQuadrature(cosine, alpha, glass)).margin(5e-4));
+            CHECK(facets.white[0](cosine) <= 1);
         }
     }
 }
@@ -85,7 +86,8 @@ TEST_CASE("what facets that reflect everything bounce on makes up for what one b
         const FacetAlbedos facets = facetAlbedos({[](double) { return 1.0; }}, alpha);
         const double again = multipleScattering(1, facets.whiteMean);
         for (double cosine : {0.0, 0.02, 0.4, 1.0})
-            CHECK(facets.albedo[0](cosine) + (1 - facets.white(cosine)) * again == Approx(1).margin(1e-6));
+            CHECK(facets.albedo[0][0](cosine) + (1 - facets.white[0](cosine)) * again ==
+                  Approx(1).margin(1e-6));
     }
     CHECK(multipleScattering(0, 0.7) == 0);
 }

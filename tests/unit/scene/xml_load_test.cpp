@@ -203,7 +203,7 @@ TEST_CASE("every lobe of the format is read") {
     REQUIRE(m.size() == 7);
     CHECK(m[1].diffuse->roughnessDegrees == 20);
     CHECK(m[1].gloss->ior.curve().at(500) == 1.5);
-    CHECK(m[1].gloss->roughness == 0.3);
+    CHECK(m[1].gloss->roughness.v == 0.3);
     REQUIRE(m[1].fluorescence.size() == 2);
     CHECK(m[1].fluorescence[0].yield == 0.9);
     CHECK(m[1].fluorescence[0].strength == 0.5);
@@ -213,7 +213,7 @@ TEST_CASE("every lobe of the format is read") {
     CHECK(m[1].emission->amount->value == 100);
     CHECK(m[2].conductor->ior.curves.size() == 2);
     CHECK(m[2].conductor->schlick);
-    CHECK(m[3].specular->roughness == 0.2);
+    CHECK(m[3].specular->roughness.u == 0.2);
     CHECK(m[4].diffuse->texture->source == (folder.path() / "wood.png").string());
     CHECK(m[5].fluorescence[0].diagonalNone);
     CHECK(m[5].diffuse->texture->source == "pass:p");
