@@ -110,10 +110,15 @@ void drawMaterials(Session& session, PanelState& state) {
                 sampled(shown.curve(), nm, value);
                 plotSpectrum("##plot", nm, value, ImGui::GetContentRegionAvail().x, 46 * state.scale);
             }
-            if (material.gloss) ImGui::TextDisabled("gloss, roughness %.3g", material.gloss->roughness);
+            const auto roughness = [](const Roughness& r) {
+                return r.u == r.v ? fmt::format("{:.3g}", r.u)
+                                  : fmt::format("{:.3g} along, {:.3g} across", r.u, r.v);
+            };
+            if (material.gloss)
+                ImGui::TextDisabled("gloss, roughness %s", roughness(material.gloss->roughness).c_str());
             if (material.conductor)
-                ImGui::TextDisabled("%s, roughness %.3g", material.conductor->ior.text.c_str(),
-                                    material.conductor->roughness);
+                ImGui::TextDisabled("%s, roughness %s", material.conductor->ior.text.c_str(),
+                                    roughness(material.conductor->roughness).c_str());
             if (material.diffuse && material.diffuse->texture)
                 ImGui::TextDisabled("texture %s", material.diffuse->texture->source.c_str());
             ImGui::TreePop();
