@@ -1,6 +1,5 @@
 // Expansion: L(x, wavelength) = sum of g c, 81 bands of a 1920x1080 image by strips, beside a plain fill of
 // the same buffers.
-#include "base/error.h"
 #include "hand_plan.h"
 #include "measure.h"
 #include "render/memory_plan.h"
@@ -120,11 +119,5 @@ void run(int rounds) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        run(bench::roundsFrom(argc, argv));
-    } catch (const Error& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return 1;
-    }
-    return 0;
+    return bench::reported([&] { run(bench::roundsFrom(argc, argv)); });
 }

@@ -1,6 +1,5 @@
 // What fluorescence costs per pixel: a chart of 24 paints rendered plain, with one fluorescent paint, and
 // with all of them fluorescent, measured in turn. Light factors, so that nothing is to be paid.
-#include "base/error.h"
 #include "base/files.h"
 #include "measure.h"
 #include "render/renderer.h"
@@ -72,11 +71,5 @@ void run(int rounds) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        run(bench::roundsFrom(argc, argv));
-    } catch (const Error& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return 1;
-    }
-    return 0;
+    return bench::reported([&] { run(bench::roundsFrom(argc, argv)); });
 }

@@ -1,6 +1,5 @@
 // Lighting: g of every sample of a wall that fills a 1920x1080 image, Lambert and coated, under 1, 4 and 16
 // lights of one spectrum.
-#include "base/error.h"
 #include "base/files.h"
 #include "measure.h"
 #include "render/stages.h"
@@ -70,11 +69,5 @@ void run(int rounds) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        run(bench::roundsFrom(argc, argv));
-    } catch (const Error& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return 1;
-    }
-    return 0;
+    return bench::reported([&] { run(bench::roundsFrom(argc, argv)); });
 }

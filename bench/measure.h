@@ -1,6 +1,8 @@
 // Timing of contestants in turn (A B A B …), so that whatever else the machine does meets all of them alike.
 #pragma once
 
+#include "base/error.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,11 +66,27 @@ inline std::vector<Times> inTurn(const std::vector<std::function<void()>>& conte
     return times;
 }
 
+/// The value after `option` on the command line, else `otherwise`.
+inline std::string valueOf(const std::string& option, const std::string& otherwise, int argc, char** argv) {
+    for (int i = 1; i + 1 < argc; ++i)
+        if (argv[i] == option) return argv[i + 1];
+    return otherwise;
+}
+
 /// Rounds from the command line ("--rounds 15"), at least 7.
 inline int roundsFrom(int argc, char** argv) {
-    for (int i = 1; i + 1 < argc; ++i)
-        if (std::string(argv[i]) == "--rounds") return std::max(7, std::atoi(argv[i + 1]));
-    return 7;
+    return std::max(7, std::atoi(valueOf("--rounds", "7", argc, argv).c_str()));
+}
+
+/// A benchmark's main(): an error is one line and exit code 1.
+inline int reported(const std::function<void()>& benchmark) {
+    try {
+        benchmark();
+    } catch (const Error& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return 1;
+    }
+    return 0;
 }
 
 }  // namespace spectrad::bench

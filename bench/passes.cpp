@@ -3,6 +3,7 @@
 #include "render/passes.h"
 
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "measure.h"
 #include "render/renderer.h"
 #include "scene/load.h"
@@ -109,10 +110,10 @@ void run(const Scene& scene, int rounds) {
         100 * (bench::median(times[2].work) / work - 1));
 
     kept.reset();
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch clock;
     PassTextures textures(scene, library, device, target(passes - 1), notes);
     render(makePlan(scene, target(passes - 1), library, textures, notes));
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = clock.seconds();
     fmt::print(
         "chain of {} passes: {:.2f} s; peak memory of the process {:.0f} MiB, {:.1f} cubes of {:.0f} MiB "
         "(device memory {:.0f} MiB)\n",

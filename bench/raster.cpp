@@ -1,6 +1,5 @@
 // Visibility: transform and cover, beside llvmpipe (OSMesa) drawing the same triangles with a depth test and
 // a flat colour.
-#include "base/error.h"
 #include "hand_plan.h"
 #include "measure.h"
 #include "render/memory_plan.h"
@@ -139,14 +138,6 @@ void run(int rounds, const std::string& only) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::string only;
-    for (int i = 1; i + 1 < argc; ++i)
-        if (std::string(argv[i]) == "--only") only = argv[i + 1];
-    try {
-        run(bench::roundsFrom(argc, argv), only);
-    } catch (const Error& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return 1;
-    }
-    return 0;
+    return bench::reported(
+        [&] { run(bench::roundsFrom(argc, argv), bench::valueOf("--only", "", argc, argv)); });
 }

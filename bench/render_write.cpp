@@ -1,6 +1,5 @@
 // Render to a file: scene to spectral EXR, beside writing the same EXR from memory. What remains of the
 // difference is what rendering costs where the file is the bottleneck.
-#include "base/error.h"
 #include "image/cube.h"
 #include "measure.h"
 #include "render/renderer.h"
@@ -98,14 +97,8 @@ void run(const fs::path& scene, int rounds) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    fs::path scene = SPECTRAD_SOURCE "/scenes/still-life.xml";
-    for (int i = 1; i + 1 < argc; ++i)
-        if (std::string(argv[i]) == "--scene") scene = argv[i + 1];
-    try {
-        run(scene, bench::roundsFrom(argc, argv));
-    } catch (const Error& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return 1;
-    }
-    return 0;
+    return bench::reported([&] {
+        run(bench::valueOf("--scene", SPECTRAD_SOURCE "/scenes/still-life.xml", argc, argv),
+            bench::roundsFrom(argc, argv));
+    });
 }

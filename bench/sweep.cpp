@@ -2,7 +2,6 @@
 // the last strip, files left out of both.
 #include "render/sweep.h"
 
-#include "base/error.h"
 #include "colour/detector.h"
 #include "measure.h"
 #include "render/renderer.h"
@@ -72,14 +71,8 @@ void run(const std::filesystem::path& file, int rounds) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::filesystem::path scene = SPECTRAD_SOURCE "/scenes/colorchecker.xml";
-    for (int i = 1; i + 1 < argc; ++i)
-        if (std::string(argv[i]) == "--scene") scene = argv[i + 1];
-    try {
-        run(scene, bench::roundsFrom(argc, argv));
-    } catch (const Error& error) {
-        fmt::print(stderr, "{}\n", error.what());
-        return 1;
-    }
-    return 0;
+    return bench::reported([&] {
+        run(bench::valueOf("--scene", SPECTRAD_SOURCE "/scenes/colorchecker.xml", argc, argv),
+            bench::roundsFrom(argc, argv));
+    });
 }

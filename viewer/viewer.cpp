@@ -2,11 +2,11 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/stopwatch.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <imgui.h>
@@ -116,7 +116,7 @@ void Viewer::resizePicture(const FaceSize& size) {
 }
 
 void Viewer::frame(double seconds) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch clock;
     for (const Event& event : face_.events(queue_.empty() && settled_ ? seconds : 0))
         queue_.push_back(event);
     // A press and its release are seen in two frames, and whose press it is (a panel's or the picture's) is
@@ -160,7 +160,7 @@ void Viewer::frame(double seconds) {
     panels_.samples = samples_;
     draw(size);
     face_.present();
-    panels_.frameSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    panels_.frameSeconds = clock.seconds();
 }
 
 void Viewer::draw(const FaceSize& size) {

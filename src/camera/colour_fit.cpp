@@ -1,42 +1,10 @@
 #include "camera/colour_fit.h"
 
+#include "base/cholesky.h"
+
 #include <algorithm>
-#include <cmath>
 
 namespace spectrad {
-
-namespace {
-
-/// Solves a · x = b by elimination with pivoting; directions of no more than rounding get 0.
-std::vector<double> solved(std::vector<std::vector<double>> a, std::vector<double> b) {
-    const size_t n = b.size();
-    for (size_t k = 0; k < n; ++k) {
-        size_t pivot = k;
-        for (size_t r = k + 1; r < n; ++r)
-            if (std::abs(a[r][k]) > std::abs(a[pivot][k])) pivot = r;
-        std::swap(a[k], a[pivot]);
-        std::swap(b[k], b[pivot]);
-        if (std::abs(a[k][k]) < 1e-12) {
-            a[k][k] = 1;
-            b[k] = 0;
-            continue;
-        }
-        for (size_t r = k + 1; r < n; ++r) {
-            const double factor = a[r][k] / a[k][k];
-            for (size_t c = k; c < n; ++c)
-                a[r][c] -= factor * a[k][c];
-            b[r] -= factor * b[k];
-        }
-    }
-    for (size_t k = n; k-- > 0;) {
-        for (size_t c = k + 1; c < n; ++c)
-            b[k] -= a[k][c] * b[c];
-        b[k] /= a[k][k];
-    }
-    return b;
-}
-
-}  // namespace
 
 std::vector<double> whiteBalance(const std::vector<double>& white) {
     const double most = *std::max_element(white.begin(), white.end());
@@ -78,7 +46,8 @@ XyzMatrix fittedMatrix(const Detector& camera, const Detector& observer, const C
                 target[k][r] += channels[r] * xyz[k] / whiteXyz[1];
         }
     }
-    return {solved(gram, target[0]), solved(gram, target[1]), solved(gram, target[2])};
+    const Cholesky factor(std::move(gram));
+    return {factor.solve(target[0]), factor.solve(target[1]), factor.solve(target[2])};
 }
 
 }  // namespace spectrad

@@ -38,21 +38,9 @@ RenderSettings settingsOf(const BakeArguments& arguments) {
 }
 
 std::string recordedCommand(const BakeArguments& arguments) {
-    const SceneArguments& scene = arguments.scene;
-    std::string text = fmt::format("spectrad bake {} --node {} --as {} --size {} --gutter {}", scene.file,
-                                   arguments.node, arguments.as, arguments.size, arguments.gutter);
-    const auto add = [&](const char* option, const std::string& value) {
-        if (!value.empty()) text += std::string(" ") + option + " " + value;
-    };
-    add("--wavelengths", scene.wavelengths);
-    add("--projection", scene.projection);
-    add("--samples", scene.samples);
-    add("--camera", scene.camera);
-    add("--device", scene.device);
-    for (const std::string& set : scene.set)
-        add("--set", set);
-    if (scene.restricted) text += " --restrict";
-    return text;
+    return fmt::format("spectrad bake {} --node {} --as {} --size {} --gutter {}{}{}", arguments.scene.file,
+                       arguments.node, arguments.as, arguments.size, arguments.gutter,
+                       recorded(arguments.scene), arguments.scene.restricted ? " --restrict" : "");
 }
 
 ExitCode bake(const BakeArguments& arguments) {

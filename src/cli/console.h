@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "base/stopwatch.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -48,17 +49,6 @@ class ProgressBar {
     bool enabled_;
     bool drawn_ = false;
     std::chrono::steady_clock::time_point start_, last_;
-};
-
-/// Seconds since construction.
-class Stopwatch {
-  public:
-    [[nodiscard]] double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 /// Result text, as it is.

@@ -115,6 +115,24 @@ void addDeviceOption(CLI::App& command, std::string& device) {
         ->type_name("N");
 }
 
+std::string recorded(const SceneArguments& arguments) {
+    std::string text;
+    const auto add = [&](const char* option, const std::string& value) {
+        if (!value.empty()) text += std::string(" ") + option + " " + value;
+    };
+    add("--wavelengths", arguments.wavelengths);
+    add("--projection", arguments.projection);
+    add("--size", arguments.size);
+    add("--samples", arguments.samples);
+    add("--camera", arguments.camera);
+    add("--pass", arguments.pass);
+    add("--only", arguments.only);
+    add("--device", arguments.device);
+    for (const std::string& set : arguments.set)
+        add("--set", set);
+    return text;
+}
+
 LoadOptions loadOptions(const SceneArguments& arguments) {
     return {arguments.set, arguments.restricted};
 }

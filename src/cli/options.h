@@ -54,6 +54,9 @@ struct SceneArguments {
 };
 void addSceneOptions(CLI::App& command, SceneArguments& arguments);
 void addDeviceOption(CLI::App& command, std::string& device);
+/// Those options as they were given, to be recorded with the result: " --size 640x480 --set lamp.spectrum=…".
+/// Without --restrict, which comes last.
+[[nodiscard]] std::string recorded(const SceneArguments& arguments);
 [[nodiscard]] LoadOptions loadOptions(const SceneArguments& arguments);
 [[nodiscard]] RenderSettings renderSettings(const SceneArguments& arguments);
 [[nodiscard]] std::optional<int> deviceNumber(const std::string& device);

@@ -77,24 +77,10 @@ Output outputOf(const RenderArguments& arguments) {
 /// The part of the command line that decides what is in the file. Where it is written is left out: the same
 /// picture under another name is the same file.
 std::string recordedCommand(const RenderArguments& arguments) {
-    const SceneArguments& scene = arguments.scene;
-    std::string text = "spectrad render " + scene.file;
-    const auto add = [&](const char* option, const std::string& value) {
-        if (!value.empty()) text += std::string(" ") + option + " " + value;
-    };
-    add("--wavelengths", scene.wavelengths);
-    add("--projection", scene.projection);
-    add("--size", scene.size);
-    add("--samples", scene.samples);
-    add("--camera", scene.camera);
-    add("--pass", scene.pass);
-    add("--only", scene.only);
-    add("--device", scene.device);
-    for (const std::string& set : scene.set)
-        add("--set", set);
-    add("--compression", arguments.compression);
+    std::string text = "spectrad render " + arguments.scene.file + recorded(arguments.scene);
+    if (!arguments.compression.empty()) text += " --compression " + arguments.compression;
     if (arguments.half) text += " --half";
-    if (scene.restricted) text += " --restrict";
+    if (arguments.scene.restricted) text += " --restrict";
     return text;
 }
 

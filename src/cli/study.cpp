@@ -67,15 +67,7 @@ std::string recordedCommand(const StudyArguments& arguments) {
         text += " --light " + light;
     for (const std::string& observer : arguments.observers)
         text += " --observer " + observer;
-    for (const std::string& set : arguments.scene.set)
-        text += " --set " + set;
-    for (const auto& [option, value] : {std::pair{"--wavelengths", arguments.scene.wavelengths},
-                                        {"--size", arguments.scene.size},
-                                        {"--samples", arguments.scene.samples},
-                                        {"--camera", arguments.scene.camera},
-                                        {"--pass", arguments.scene.pass}})
-        if (!value.empty()) text += fmt::format(" {} {}", option, value);
-    return text;
+    return text + recorded(arguments.scene) + (arguments.scene.restricted ? " --restrict" : "");
 }
 
 void printTable(const StudyReport& report) {

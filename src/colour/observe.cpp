@@ -1,5 +1,6 @@
 #include "colour/observe.h"
 
+#include "base/cholesky.h"
 #include "base/text.h"
 #include "spectrum/projection.h"
 
@@ -53,42 +54,6 @@ std::vector<std::vector<float>> floatPlanes(const ChannelImage& image,
     return result;
 }
 
-/// Solves a · x = b for symmetric, positive definite a by Cholesky's factors, in place. Directions that are
-/// nothing but rounding (channels that repeat each other) get no weight.
-static std::vector<double> solve(std::vector<std::vector<double>> a, std::vector<double> b) {
-    const size_t n = b.size();
-    std::vector<bool> used(n);
-    for (size_t j = 0; j < n; ++j) {
-        const double before = a[j][j];
-        for (size_t k = 0; k < j; ++k)
-            if (used[k]) a[j][j] -= a[j][k] * a[j][k];
-        used[j] = a[j][j] > 1e-12 * before;
-        if (!used[j]) continue;
-        a[j][j] = std::sqrt(a[j][j]);
-        for (size_t i = j + 1; i < n; ++i) {
-            for (size_t k = 0; k < j; ++k)
-                if (used[k]) a[i][j] -= a[i][k] * a[j][k];
-            a[i][j] /= a[j][j];
-        }
-    }
-    for (size_t i = 0; i < n; ++i) {
-        if (!used[i]) {
-            b[i] = 0;
-            continue;
-        }
-        for (size_t k = 0; k < i; ++k)
-            b[i] -= used[k] ? a[i][k] * b[k] : 0;
-        b[i] /= a[i][i];
-    }
-    for (size_t i = n; i-- > 0;) {
-        if (!used[i]) continue;
-        for (size_t k = i + 1; k < n; ++k)
-            b[i] -= used[k] ? a[k][i] * b[k] : 0;
-        b[i] /= a[i][i];
-    }
-    return b;
-}
-
 XyzMatrix towardsXyz(const Detector& detector, const Detector& observer) {
     if (!observer.tristimulus)
         throw InputError("XYZ need an observer with the channels X, Y, Z, not '" + observer.name + "'");
@@ -110,12 +75,13 @@ XyzMatrix towardsXyz(const Detector& detector, const Detector& observer) {
         trace += gram[i][i];
     }
     if (!(trace > 0)) throw InputError("'" + detector.name + "' has no sensitivity at any wavelength");
+    const Cholesky factor(std::move(gram));
     XyzMatrix matrix;
     for (size_t k = 0; k < 3; ++k) {
         std::vector<double> target(n);
         for (size_t i = 0; i < n; ++i)
             target[i] = overlap(detector.response[i], observer.response[k]);
-        matrix[k] = solve(gram, target);
+        matrix[k] = factor.solve(std::move(target));
         for (double& m : matrix[k])
             m *= observer.scale / detector.scale;
     }

@@ -38,23 +38,4 @@ void writePng16(const std::filesystem::path& target, const Picture16& picture) {
     writeFile(target, bytes);
 }
 
-Picture16 readPng16(const std::filesystem::path& path) {
-    const std::string bytes = readFile(path);
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    const auto check = [&](int done) {
-        if (done != 0) return;
-        const std::string message = image.message;
-        png_image_free(&image);
-        throw InputError({path.string()}, "cannot be read as PNG: " + message);
-    };
-    check(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()));
-    const bool colour = (image.format & PNG_FORMAT_FLAG_COLOR) != 0;
-    image.format = colour ? PNG_FORMAT_LINEAR_RGB : PNG_FORMAT_LINEAR_Y;
-    Picture16 picture{static_cast<int>(image.width), static_cast<int>(image.height), colour ? 3 : 1, {}};
-    picture.pixels.resize(PNG_IMAGE_SIZE(image) / 2);
-    check(png_image_finish_read(&image, nullptr, picture.pixels.data(), 0, nullptr));
-    return picture;
-}
-
 }  // namespace spectrad

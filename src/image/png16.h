@@ -15,7 +15,5 @@ struct Picture16 {
 /// Whole or not at all; marked as linear (gamma 1). Throws InputError for sizes that do not fit,
 /// MachineError.
 void writePng16(const std::filesystem::path& target, const Picture16& picture);
-/// The values of such a file, unchanged. Throws InputError.
-[[nodiscard]] Picture16 readPng16(const std::filesystem::path& path);
 
 }  // namespace spectrad

@@ -1,23 +1,11 @@
 // Convex quadratic programmes with equalities and a box, small and dense.
 #pragma once
 
-#include <cstddef>
+#include "base/cholesky.h"
+
 #include <vector>
 
 namespace spectrad {
-
-using Rows = std::vector<std::vector<double>>;
-
-/// Cholesky's factor of a symmetric positive definite matrix, for many right-hand sides.
-class Cholesky {
-  public:
-    /// `a` by rows. Directions of no more than rounding are left out: their solution is 0.
-    explicit Cholesky(Rows a);
-    [[nodiscard]] std::vector<double> solve(std::vector<double> b) const;
-
-  private:
-    Rows factor_;  ///< lower triangle
-};
 
 struct BoxQuadratic {
     Rows q;                      ///< symmetric, positive semidefinite

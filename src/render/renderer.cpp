@@ -2,25 +2,16 @@
 // materials → light → expand. Buffers are made once and grow; nothing is as large as the image.
 #include "render/renderer.h"
 
+#include "base/stopwatch.h"
 #include "render/memory_plan.h"
 #include "render/samples.h"
 #include "render/stages.h"
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstring>
 
 namespace spectrad {
-
-namespace {
-
-using Clock = std::chrono::steady_clock;
-double seconds(Clock::time_point from) {
-    return std::chrono::duration<double>(Clock::now() - from).count();
-}
-
-}  // namespace
 
 struct Renderer::Body {
     Body(const Device& d, const Plan& p)
@@ -28,9 +19,9 @@ struct Renderer::Body {
           plan(p),
           lanes(lanePattern(p.samples, d.body().vectorWidth())),
           memory(planMemory(p, d.info(), lanes.slots)) {
-        const auto start = Clock::now();
+        const Stopwatch start;
         stages = std::make_unique<Stages>(device, plan, lanes);
-        times.build = seconds(start);
+        times.build = start.seconds();
     }
 
     void deliver(int firstRow, int rows, const StripSink& sink);
@@ -58,7 +49,7 @@ std::uint64_t Renderer::bytesPerStrip() const {
 }
 
 void Renderer::render(const StripSink& sink, const Progress& progress) {
-    const auto start = Clock::now();
+    const Stopwatch start;
     Body& body = *body_;
     const int height = body.plan.view.height;
     body.stages->transform();
@@ -81,7 +72,7 @@ void Renderer::render(const StripSink& sink, const Progress& progress) {
         }
         row += count;
     }
-    body.times.render += seconds(start);
+    body.times.render += start.seconds();
 }
 
 namespace {
@@ -105,9 +96,9 @@ void Renderer::Body::deliver(int firstRow, int rows, const StripSink& sink) {
         previewMap(device, preview.buffer(), previewLines * pitch);
     const float* bands = tight(cubeMap.data(), cubeLines, pitch, width, tightCube);
     const float* linear = tight(previewMap.data(), previewLines, pitch, width, tightPreview);
-    const auto handedOver = Clock::now();
+    const Stopwatch handedOver;
     sink(firstRow, rows, bands, linear);
-    times.render -= seconds(handedOver);
+    times.render -= handedOver.seconds();
 }
 
 }  // namespace spectrad

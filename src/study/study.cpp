@@ -1,23 +1,18 @@
 #include "study/study.h"
 
+#include "base/stopwatch.h"
+#include "colour/develop.h"
 #include "colour/difference.h"
 #include "colour/white.h"
 #include "spectrum/resolver.h"
 #include "study/trial.h"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 
 namespace spectrad {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// What a contestant is held against under one light and observer.
 struct Condition {
@@ -29,13 +24,6 @@ struct Condition {
     /// samples.
     std::map<int, ChannelImage> reference;
 };
-
-double quantileOf(std::vector<float> values, double share) {
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
 
 class Study {
   public:
@@ -94,7 +82,8 @@ class Study {
         const ColourDifference colour = colourDifference(reference, trial.xyz, condition.white.xyz);
         row.deltaMean = colour.mean;
         row.deltaP95 = colour.p95;
-        row.deltaP99 = quantileOf(colour.map, 0.99);
+        std::vector<double> differences(colour.map.begin(), colour.map.end());
+        row.deltaP99 = quantile(differences, 0.99);
         row.deltaMax = colour.max;
         row.worstX = colour.maxX;
         row.worstY = colour.maxY;
@@ -150,16 +139,22 @@ class Study {
         return condition.reference.emplace(samples, std::move(image)).first->second;
     }
 
-    /// Against what a slit records at these wavelengths.
+    /// Against what a slit records at these wavelengths; a contestant that is just that is not rendered
+    /// again.
     void addBands(StudyRow& row, const Condition& condition, const Contestant& contestant, const Cube& cube) {
         Contestant exact = contestant;
         exact.wavelengths.projection = Projection::slit;
         exact.schlick = false;
+        exact.output = {};
         if (contestant.knob == Knob::samples) exact.samples = manySamples;
+        const bool itself = contestant.wavelengths.projection == Projection::slit && !contestant.schlick &&
+                            contestant.output == OutputForm{} && contestant.samples == exact.samples;
         TrialSettings how;
         how.rounds = 1;
         how.keepCube = true;
-        const Cube right = tryOut(device_, entryOf(condition, exact).value(), {}, how).cube;
+        const Cube rendered =
+            itself ? Cube{} : tryOut(device_, entryOf(condition, exact).value(), {}, how).cube;
+        const Cube& right = itself ? cube : rendered;
         BandDifferenceMeter meter(cube.info.wavelengths.size(), cube.info.width);
         for (int y = 0; y < cube.info.height; ++y)
             meter.add(right.row(y, 0), cube.row(y, 0));
@@ -184,7 +179,7 @@ std::string doneName(const std::string& light, const std::string& observer, cons
 StudyReport study(const Scene& scene, const StudySettings& settings, const Library& library,
                   const Device& device, const Planner& planner, const std::set<std::string>& done,
                   const RowSink& sink, const Progress& progress) {
-    const auto start = Clock::now();
+    const Stopwatch start;
     StudyReport report;
     Study work(settings, library, device, planner);
     std::vector<Condition> conditions;
@@ -200,17 +195,17 @@ StudyReport study(const Scene& scene, const StudySettings& settings, const Libra
             progress(static_cast<double>(finished++) / static_cast<double>(all.size() * conditions.size()));
             const std::string name = doneName(condition.light, condition.observer, contestant.key);
             if (done.contains(name)) continue;
-            if (since(start) > settings.budgetSeconds) {
+            if (start.seconds() > settings.budgetSeconds) {
                 report.leftOut.push_back(name + ": beyond the budget");
                 continue;
             }
-            const auto planning = Clock::now();
+            const Stopwatch planning;
             const std::optional<Entry> entry = work.entryOf(condition, contestant);
             if (!entry) {
                 report.leftOut.push_back(name + ": the scene's textures have no three numbers");
                 continue;
             }
-            const double planSeconds = since(planning);
+            const double planSeconds = planning.seconds();
             report.rows.push_back(work.row(condition, contestant, *entry));
             report.rows.back().planSeconds = planSeconds;
             sink(report.rows.back());
@@ -219,7 +214,7 @@ StudyReport study(const Scene& scene, const StudySettings& settings, const Libra
                     report.spectra.push_back(std::move(spectrum));
         }
     }
-    report.seconds = since(start);
+    report.seconds = start.seconds();
     return report;
 }
 

@@ -57,7 +57,8 @@ class Translator {
         if (!emitter.amount) return;
         // The same kind of amount, which a light may still have to divide by its solid angle, of a size that
         // leaves the three values as they are.
-        const double integral = integrate(light3(emitter.spectrum.curve()), channelNm[0], channelNm[2]);
+        const std::array<const Curve*, 1> told{&emitter.spectrum.curve()};
+        const double integral = integrate(told, channelNm[0], channelNm[2]);
         if (!(integral > 0)) {
             emitter.amount.reset();
             emitter.scale = 0;
@@ -79,7 +80,6 @@ class Translator {
     static Curve table(const Triple& values) {
         return Curve::table({channelNm.begin(), channelNm.end()}, {values.begin(), values.end()});
     }
-    static std::array<const Curve*, 1> light3(const Curve& curve) { return {&curve}; }
     static AmountUnit radiometric(AmountUnit unit) {
         switch (unit) {
             case AmountUnit::candela:

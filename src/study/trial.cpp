@@ -1,22 +1,16 @@
 #include "study/trial.h"
 
+#include "base/stopwatch.h"
 #include "render/renderer.h"
 
 #include <Imath/half.h>
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <memory>
 
 namespace spectrad {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 CubeInfo infoOf(const Plan& plan) {
     CubeInfo info;
@@ -57,10 +51,10 @@ Trial tryOut(const Device& device, const Entry& entry, const OutputForm& form,
     std::vector<float> preview;
     for (int round = 0; round < settings.rounds; ++round) {
         double spent = 0;
-        const auto start = Clock::now();
+        const Stopwatch start;
         renderer.render([&](int firstRow, int rows, const float* values, const float* rgb) {
             if (round > 0) return;
-            const auto now = Clock::now();
+            const Stopwatch now;
             const size_t count = static_cast<size_t>(rows) * width;
             std::vector<float> strip(values, values + count * bands);
             keep(form, strip);
@@ -71,19 +65,19 @@ Trial tryOut(const Device& device, const Entry& entry, const OutputForm& form,
                 trial.cube.values.insert(trial.cube.values.end(), strip.begin(), strip.end());
                 preview.insert(preview.end(), rgb, rgb + count * 3);
             }
-            spent += since(now);
+            spent += now.seconds();
         });
-        const double seconds = since(start) - spent;
+        const double seconds = start.seconds() - spent;
         trial.renderSeconds = round == 0 ? seconds : std::min(trial.renderSeconds, seconds);
     }
     if (!settings.file.empty()) {
         WriteOptions options;
         options.half = form.half;
-        const auto start = Clock::now();
+        const Stopwatch start;
         const auto writer = createExr(settings.file, trial.cube.info, options);
         writer->write(plan.view.height, trial.cube.values.data(), preview.data());
         writer->finish();
-        trial.writeSeconds = since(start);
+        trial.writeSeconds = start.seconds();
         trial.fileBytes = std::filesystem::file_size(settings.file);
         std::filesystem::remove(settings.file);
     }

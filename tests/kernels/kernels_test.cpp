@@ -1,5 +1,6 @@
 // The kernels on every device against their scalar twins, bit for bit.
 #include "kernels/random_world.h"
+#include "kernels/read_back.h"
 #include "kernels/twin.h"
 #include "render/live.h"
 
@@ -11,13 +12,6 @@
 using namespace spectrad;
 
 namespace {
-
-template <typename T>
-std::vector<T> read(const Device& device, const cl::Buffer& buffer, size_t count) {
-    std::vector<T> data(count);
-    if (count > 0) device.body().queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(T), data.data());
-    return data;
-}
 
 size_t differences(const std::vector<float>& a, const std::vector<float>& b) {
     REQUIRE(a.size() == b.size());

@@ -1,6 +1,7 @@
 // Rounding of the kernels: what the device computes in float against the same formulae in double, on the same
 // float input. Errors are counted in ulps, 2^-23 of the right value.
 #include "kernels/random_world.h"
+#include "kernels/read_back.h"
 #include "kernels/twin.h"
 #include "render/stages.h"
 
@@ -12,13 +13,6 @@
 using namespace spectrad;
 
 namespace {
-
-template <typename T>
-std::vector<T> read(const Device& device, const cl::Buffer& buffer, size_t count) {
-    std::vector<T> data(count);
-    if (count > 0) device.body().queue.enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(T), data.data());
-    return data;
-}
 
 double ulps(double value, double right) {
     return std::abs(value - right) / (std::abs(right) * 0x1p-23);
