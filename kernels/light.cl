@@ -1,6 +1,7 @@
 /* Lighting: the geometry factors g of every term of the term image, summed over a pixel's samples. No wavelength appears here. */
 #include "blocks.h"
 #include "mapping.h"
+#include "relief.h"
 
 /* Irradiance at normal incidence per unit of the group's spectrum, and where it comes from. */
 static vfloat arriving(sd_light light, v3 position, v3* to_light) {
@@ -45,7 +46,11 @@ static void shade_light(sd_lobe lobe, global const sd_piece* tables, sd_light li
     v3 to_light;
     const vfloat strength = arriving(light, s.position, &to_light);
     const vfloat cos_light = dot3(s.normal, to_light);
+#ifdef HAS_RELIEF
+    const vint lit = mask & (cos_light > 0.0f) & (dot3(s.horizon, to_light) > 0.0f);
+#else
     const vint lit = mask & (cos_light > 0.0f);
+#endif
     if (!ANY(lit)) return;
     const vfloat irradiance = strength * cos_light;
     switch (lobe.type) {
@@ -151,7 +156,10 @@ BLOCK_GROUP kernel void light_block(global const ulong* keys, global const uint*
                 if (material.terms > 0) add_to(material_sums, select((vfloat)0.0f, (vfloat)1.0f, mask));
                 continue;
             }
-            const surface s = surface_at(index + 3 * (size_t)triangle, camera, camera_normal, coordinates, tangents, frame, x, y);
+            surface s = surface_at(index + 3 * (size_t)triangle, camera, camera_normal, coordinates, tangents, frame, x, y);
+#ifdef HAS_RELIEF
+            if (material.relief != 0) bend(&s, index + 3 * (size_t)triangle, camera, coordinates, p, material.relief, mask);
+#endif
             shade(material, lobes, tables, lights, light_count, groups, s, frame, x, y, mask, p, material_sums);
         }
     }

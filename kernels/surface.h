@@ -32,6 +32,10 @@ typedef struct surface {
 #ifdef HAS_ANISOTROPY
     v3 tangent, bitangent; /* unit, in the surface: along the texture coordinates' u, and across it; their signs mean nothing */
 #endif
+#ifdef HAS_RELIEF
+    vfloat side; /* 1 where the outside is seen, -1 from behind */
+    v3 horizon;  /* light from behind this plane does not arrive: the normal before a texture bent it */
+#endif
 #ifdef HAS_TEXTURE
     vfloat u, v; /* texture coordinates, (0,0) bottom left */
 #endif
@@ -39,6 +43,14 @@ typedef struct surface {
     vfloat u_x, v_x, u_y, v_y; /* their change from pixel to pixel, along rows and columns, up to a common sign */
 #endif
 } surface;
+
+#ifdef HAS_ANISOTROPY
+/* Tangents in the surface that has the normal, as near as may be to a vector. */
+static inline void orient(surface* s, v3 along) {
+    s->tangent = unit3(add3(along, scale3(s->normal, -dot3(s->normal, along))));
+    s->bitangent = cross3(s->normal, s->tangent);
+}
+#endif
 
 /* Grazing views are held a little off the horizon, where microfacet terms divide by the cosine. */
 #define MIN_COS_VIEW 1e-5f
@@ -132,7 +144,8 @@ static surface surface_at(global const uint* corner, global const float* camera,
     }
 #ifdef BAKE
     /* A texture belongs to the outside. */
-    s.normal = unit3(n);
+    const vfloat side = 1.0f;
+    n = unit3(n);
 #else
     /* The seen side: the face's plane decides, so that a smooth normal that leans over the silhouette stays on its side. */
     const v3 e1 = {(vfloat)(p1[0] - p0[0]), (vfloat)(p1[1] - p0[1]), (vfloat)(p1[2] - p0[2])};
@@ -140,7 +153,12 @@ static surface surface_at(global const uint* corner, global const float* camera,
     const v3 face = cross3(e1, e2);
     const vfloat seen = dot3(face, s.view), along = dot3(face, n);
     n = unit3(n);
-    s.normal = scale3(n, copysign((vfloat)1.0f, seen) * copysign((vfloat)1.0f, along));
+    const vfloat side = copysign((vfloat)1.0f, seen) * copysign((vfloat)1.0f, along);
+#endif
+    s.normal = scale3(n, side);
+#ifdef HAS_RELIEF
+    s.side = side;
+    s.horizon = s.normal;
 #endif
     s.cos_view = fmax(dot3(s.normal, s.view), MIN_COS_VIEW);
 #ifdef HAS_ANISOTROPY
@@ -151,8 +169,7 @@ static surface surface_at(global const uint* corner, global const float* camera,
     t.x = fma(b2, (vfloat)g2[0], fma(b1, (vfloat)g1[0], b0 * g0[0]));
     t.y = fma(b2, (vfloat)g2[1], fma(b1, (vfloat)g1[1], b0 * g0[1]));
     t.z = fma(b2, (vfloat)g2[2], fma(b1, (vfloat)g1[2], b0 * g0[2]));
-    s.tangent = unit3(add3(t, scale3(s.normal, -dot3(s.normal, t))));
-    s.bitangent = cross3(s.normal, s.tangent);
+    orient(&s, t);
 #endif
     return s;
 }

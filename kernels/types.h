@@ -159,6 +159,9 @@ typedef struct sd_texture {
 typedef struct sd_material {
     sd_uint first_lobe, lobes;
     sd_uint first_term, terms;
+    sd_uint relief; /* 1 + number of the texture that bends the normal: 3 bands, directions in the frame of the texture's coordinates;
+                       2 bands, slopes in metres per unit of them; 0: none */
+    sd_uint pad_;
 } sd_material;
 
 /* What a display makes of linear Rec.709: its own linear signals. */
@@ -169,7 +172,7 @@ typedef struct sd_show {
 
 #ifndef __OPENCL_VERSION__
 static_assert(sizeof(sd_frame) == 96 && sizeof(sd_draw) == 144 && sizeof(sd_vertex) == 16 && sizeof(sd_large) == 64 + 0 &&
-                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 56 && sizeof(sd_texture) == 56 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 16 &&
+                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 56 && sizeof(sd_texture) == 56 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 24 &&
                   sizeof(sd_show) == 36,
               "layout shared with the kernels");
 #endif

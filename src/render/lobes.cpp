@@ -189,6 +189,7 @@ std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) 
         refuse("roughness= of <diffuse> goes with no coat and no fluorescence");
 
     const std::uint32_t number = beginMaterial();
+    if (material.relief && !groups_.empty()) world_.materials.back().relief = reliefTexture(*material.relief);
     if (material.emission && only_ == Only::everything) {
         if (material.emission->texture)
             addGlowing(*material.emission->texture, emissionFactor);

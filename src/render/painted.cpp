@@ -193,6 +193,13 @@ std::uint32_t TermBuilder::shareTexture(const Select& select) {
     return image.number;
 }
 
+std::uint32_t TermBuilder::reliefTexture(const Relief& relief) {
+    Image& image = images_[keyOf(relief.heights ? "heights" : "normals", relief.map) +
+                           fmt::format(" {}", relief.amount)];
+    if (image.number == 0) image.number = addTexels(world_, reliefMap(relief), relief.map);
+    return image.number;
+}
+
 // A surface that glows with an image's radiances: those of the cube on its own hats.
 void TermBuilder::addGlowing(const TextureUse& use, double factor) {
     const Image image = spectralTexture(use);

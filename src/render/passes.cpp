@@ -64,6 +64,7 @@ PassTextures::PassTextures(const Scene& scene, const Library& library, const Dev
                            const RenderSettings& settings, Notes& notes, Save save)
     : TextureLoader(*chooseShot(scene, settings).scene, library, notes),
       body_(new Body{device, library, notes, std::move(save), renderGraph(scene, settings, notes), {}, {}}) {
+    limitTo(device.info());
     for (const GraphNode& node : body_->graph) {
         if (node.shot.pass && node.shot.pass->as == PassKind::transmittance)
             throw InputError(node.shot.pass->where,
@@ -128,6 +129,7 @@ Cube PassTextures::Body::renderPlain(size_t number, Substitute substitute, bool 
     NodeTextures textures(*node.shot.scene, library, notes, [&](const Pass& pass, const TextureUse& use) {
         return texture(number, pass, use);
     });
+    textures.limitTo(device.info());
     Cube cube;
     cube.info.projectionStated = true;
     for (int face = 0, faces = 1; face < faces; ++face) {

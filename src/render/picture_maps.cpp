@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace spectrad {
 
@@ -83,6 +84,51 @@ Texels shareMap(const Select& select) {
         shares[choice] = 1.0f - further;
         if (further > 0) shares[choice + 1] = further;
         map.texels.insert(map.texels.end(), shares.begin(), shares.end());
+    }
+    return map;
+}
+
+Texels reliefMap(const Relief& relief) {
+    const TextureUse& use = relief.map;
+    if (relief.heights) {
+        const Texels heights = strengthMap(use);
+        Texels slopes{heights.width, heights.height, 2, {}};
+        const auto within = [&use](int i, int count) {
+            return use.repeat ? (i + count) % count : std::clamp(i, 0, count - 1);
+        };
+        const auto at = [&](int column, int row) {
+            return double{heights.texels[static_cast<size_t>(within(row, heights.height)) *
+                                             static_cast<size_t>(heights.width) +
+                                         static_cast<size_t>(within(column, heights.width))]};
+        };
+        // Central differences; at a border that does not go on to the other side, between it and its
+        // neighbour.
+        const auto reach = [&use](int i, int count) {
+            return use.repeat || (i > 0 && i + 1 < count) ? 2.0 : 1.0;
+        };
+        for (int row = 0; row < heights.height; ++row)
+            for (int column = 0; column < heights.width; ++column) {
+                const double right =
+                                 (at(column + 1, row) - at(column - 1, row)) / reach(column, heights.width),
+                             up = (at(column, row - 1) - at(column, row + 1)) / reach(row, heights.height);
+                slopes.texels.push_back(static_cast<float>(right * heights.width * relief.amount));
+                slopes.texels.push_back(static_cast<float>(up * heights.height * relief.amount));
+            }
+        return slopes;
+    }
+    const Picture8 picture = readPng(use.source);
+    if (picture.channels < 3)
+        throw InputError(
+            use.where,
+            use.source + ": a normal map has colours, this picture is grey (<bump> takes heights)");
+    Texels map = emptyLike(picture, 3);
+    for (size_t i = 0; i < picture.pixels.size(); i += static_cast<size_t>(picture.channels)) {
+        const auto component = [&](size_t c) { return picture.pixels[i + c] / 127.5 - 1; };
+        // Never below the surface.
+        const double x = component(0) * relief.amount, y = component(1) * relief.amount,
+                     z = std::max(component(2), 0.0), length = std::sqrt(x * x + y * y + z * z);
+        for (double value : {x, y, z})
+            map.texels.push_back(length > 0 ? static_cast<float>(value / length) : 0.0f);
     }
     return map;
 }

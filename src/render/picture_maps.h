@@ -1,4 +1,4 @@
-// Pictures that are no colours: shares of measured reflectances, strengths.
+// Pictures that are no colours: shares of measured reflectances, strengths, directions and slopes.
 #pragma once
 
 #include "render/texture.h"
@@ -12,5 +12,9 @@ namespace spectrad {
 /// For each texel the share of each choice, in the order of `select.choices`. Throws InputError naming the
 /// pixel whose value no choice has.
 [[nodiscard]] Texels shareMap(const Select& select);
+
+/// A normal map's unit vectors (3 bands), or a height map's slopes along u and v (2 bands), metres per unit
+/// of the image's coordinates.
+[[nodiscard]] Texels reliefMap(const Relief& relief);
 
 }  // namespace spectrad

@@ -90,6 +90,7 @@ Material substituted(const Material& material, Substitute substitute) {
         worn = {};
         worn.name = material.name;
         worn.where = material.where;
+        worn.relief = material.relief;  // light that a bent normal takes is no property of the paint
         worn.diffuse.emplace();
         worn.diffuse->reflectance.emplace();
         worn.diffuse->reflectance->curves = {Curve::constant(1)};
@@ -116,6 +117,7 @@ std::vector<std::string> featuresOf(const std::vector<const Material*>& material
         if (m->emission) features.insert("emission");
         if (!texturesOf(*m).empty()) features.insert("texture");
         if (m->diffuse && m->diffuse->select) features.insert("select");
+        if (m->relief) features.insert(m->relief->heights ? "bump" : "normal");
         for (const Fluorescence& part : m->fluorescence)
             if (part.mask) features.insert("mask");
         if (m->specular) features.insert("specular");

@@ -103,6 +103,7 @@ class TermBuilder {
     const Image& spectralTexture(const TextureUse& use);
     std::uint32_t strengthTexture(const TextureUse& use);
     std::uint32_t shareTexture(const Select& select);
+    std::uint32_t reliefTexture(const Relief& relief);
     /// Diffuse base under a coat, its terms weighted by `weight` (one factor of the spectrum).
     void addCoatedBase(const Material& material, const Curve& weight, const DirectionFunction& through,
                        double meanThrough, double inside, Widths widths);

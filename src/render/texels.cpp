@@ -115,6 +115,8 @@ std::vector<std::string> textureDefines(const World& world) {
         defines.emplace_back("HAS_MIP");
     if (any(world.textures, [](const sd_texture& t) { return !placedAsIs(t); }))
         defines.emplace_back("HAS_TEXTURE_PLACE");
+    if (any(world.materials, [](const sd_material& m) { return m.relief != 0; }))
+        defines.emplace_back("HAS_RELIEF");
     if (any(world.lobes, [](const sd_lobe& lobe) { return lobe.texture != 0 && lobe.inside != 0; }))
         defines.emplace_back("HAS_TEXTURE_CURVE");
     return defines;

@@ -1,7 +1,6 @@
 #include "render/texture.h"
 
 #include "base/text.h"
-#include "image/picture.h"
 #include "render/plan.h"
 #include "spectrum/lift.h"
 #include "spectrum/mass_matrix.h"
@@ -65,12 +64,11 @@ SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& note
     return texture;
 }
 
-SpectralTexture textureFromPicture(const std::string& file, const Library& library) {
-    const Picture8 picture = readPng(file);
+SpectralTexture textureFromPicture(const Picture8& picture, const Library& library) {
     SpectralTexture texture;
     texture.width = picture.width;
     texture.height = picture.height;
-    texture.nm = regularWavelengths(380, 780, 10, {file, 0, 0}).nm;
+    texture.nm = regularWavelengths(380, 780, 10, {}).nm;
     const ColourLift lift(library);
     std::map<std::array<std::uint8_t, 3>, std::vector<float>> known;  // pictures repeat their colours
     const auto linear = [](std::uint8_t encoded) {
@@ -99,6 +97,19 @@ SpectralTexture textureFromPicture(const std::string& file, const Library& libra
     return texture;
 }
 
+void TextureLoader::checkFits(const TextureUse& use, int width, int height, size_t bands) const {
+    if (!device_) return;
+    double bytes = double{sizeof(float)} * width * height * static_cast<double>(bands);
+    if (use.filter == TextureFilter::mip) bytes *= 4.0 / 3;
+    if (bytes > static_cast<double>(device_->maxAllocationBytes))
+        throw InputError(
+            use.where,
+            fmt::format("{}: {} x {} texels of {} bands take {:.0f} bytes, more than the {} that device "
+                        "{} ({}) gives in one piece",
+                        use.source, width, height, bands, bytes, device_->maxAllocationBytes, device_->number,
+                        device_->name));
+}
+
 SpectralTexture TextureLoader::load(const TextureUse& use) {
     if (use.isPass()) {
         for (const Pass& pass : scene_.passes)
@@ -112,8 +123,14 @@ SpectralTexture TextureLoader::load(const TextureUse& use) {
                              use.source +
                                  ": a picture has no radiances, so it cannot glow (a spectral cube or "
                                  "a pass can)");
-        texture = textureFromPicture(use.source, library_);
+        const Picture8 picture = readPng(use.source);
+        constexpr size_t liftedBands = 41;
+        checkFits(use, picture.width, picture.height, liftedBands);
+        texture = textureFromPicture(picture, library_);
     } else {
+        Notes saidWhenRead;
+        const CubeInfo info = readCubeInfo(use.source, saidWhenRead);
+        checkFits(use, info.width, info.height, info.wavelengths.size());
         texture = textureFrom(readCube(use.source, notes_), use, notes_);
     }
     return texture;

@@ -2,10 +2,13 @@
 #pragma once
 
 #include "image/cube.h"
+#include "image/picture.h"
+#include "opencl/device.h"
 #include "scene/scene.h"
 #include "spectrum/library.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,9 +31,8 @@ struct SpectralTexture {
 /// cube of another kind than the use asks for (only radiance carries fluorescence; only a reflectance takes a
 /// lamp).
 [[nodiscard]] SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& notes);
-/// An RGB picture (PNG, sRGB), each colour lifted to a smooth reflectance (see lift.h), on wavelengths
-/// 380:780:10.
-[[nodiscard]] SpectralTexture textureFromPicture(const std::string& file, const Library& library);
+/// An RGB picture (sRGB), each colour lifted to a smooth reflectance (see lift.h), on wavelengths 380:780:10.
+[[nodiscard]] SpectralTexture textureFromPicture(const Picture8& picture, const Library& library);
 
 /// Where textures come from: files here, passes by whoever can render them.
 class TextureLoader {
@@ -40,6 +42,9 @@ class TextureLoader {
     virtual ~TextureLoader() = default;
     TextureLoader(const TextureLoader&) = delete;
     TextureLoader& operator=(const TextureLoader&) = delete;
+
+    /// Textures are refused, before they are read, that this device does not take in one piece.
+    void limitTo(const DeviceInfo& device) { device_ = device; }
 
     /// Throws InputError at the use's place.
     [[nodiscard]] SpectralTexture load(const TextureUse& use);
@@ -52,9 +57,12 @@ class TextureLoader {
     [[nodiscard]] Notes& notes() { return notes_; }
 
   private:
+    void checkFits(const TextureUse& use, int width, int height, size_t bands) const;
+
     const Scene& scene_;
     const Library& library_;
     Notes& notes_;
+    std::optional<DeviceInfo> device_;
 };
 
 }  // namespace spectrad

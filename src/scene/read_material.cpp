@@ -104,6 +104,15 @@ Fluorescence readFluorescence(Reading& reading, const Element& element) {
     return result;
 }
 
+Relief readRelief(Reading& reading, const Element& element) {
+    Relief relief;
+    relief.heights = element.name() == "bump";
+    relief.map = readPicture(reading, element, relief.heights ? "height" : "map");
+    relief.amount = relief.heights ? reading.length(element, "depth", 0, anyNumber)
+                                   : element.number("strength", 1, notNegative);
+    return relief;
+}
+
 Material readMaterial(Reading& reading, const Element& element) {
     Material material;
     material.name = element.text("name");
@@ -124,6 +133,9 @@ Material readMaterial(Reading& reading, const Element& element) {
                                   readReflects(reading, lobe)};
         } else if (kind == "fluorescence") {
             material.fluorescence.push_back(readFluorescence(reading, lobe));
+        } else if (kind == "normal" || kind == "bump") {
+            if (material.relief) lobe.fail("a material has one fine shape: <normal> or <bump>");
+            material.relief = readRelief(reading, lobe);
         } else {
             material.emission = readGlow(reading, lobe, "an emission");
         }

@@ -132,6 +132,13 @@ struct Fluorescence {
     SourceLocation where;
 };
 
+/// A surface's fine shape: its normals are bent, nothing else.
+struct Relief {
+    TextureUse map;
+    bool heights = false;  ///< a grey picture of heights; else a normal map as in glTF
+    double amount = 1;     ///< metres from black to white; or what tilts are multiplied by
+};
+
 struct Material {
     std::string name;
     SourceLocation where;
@@ -141,6 +148,7 @@ struct Material {
     std::optional<Conductor> conductor;
     std::vector<Fluorescence> fluorescence;
     std::optional<Emitter> emission;
+    std::optional<Relief> relief;
 };
 
 // ---- graph

@@ -150,6 +150,20 @@ void addMaterials(Plan& plan, bool backdrop) {
         world.materials[0].terms = 4;
         terms += 4;
     }
+    // Both metals bent by a map of directions, the coat over a mirror and the brushed coat by slopes.
+    for (const int bands : {3, 2}) {
+        Texels image{4, 4, bands, {}};
+        for (int i = 0; i < 16 * bands; ++i)
+            image.texels.push_back(i % 3 == 2 && bands == 3 ? 0.8f
+                                                            : static_cast<float>(i * 29 % 83) / 83 - 0.5f);
+        TextureUse use;
+        use.repeat = true;
+        use.rotateDegrees = -35;
+        use.scale = {2, 1.2};
+        const sd_uint number = addTexels(world, image, use);
+        for (const size_t bent : bands == 3 ? std::array<size_t, 2>{6, 8} : std::array<size_t, 2>{3, 7})
+            world.materials[bent].relief = number;
+    }
     plan.terms.bands = 7;
     Random random(99);
     for (std::uint32_t t = 0; t < terms; ++t) {
@@ -188,13 +202,12 @@ Plan emptyPlan(int samples, bool orthographic, int width, int height) {
     plan.view.worldToCamera = Affine::rotation({1, 2, 3}, 40);
     plan.view.pixelsPerSlope = orthographic ? height / 4.0 : height * 0.9;
     plan.wavelengths.nm = {400, 450, 500, 550, 600, 650, 700};
-    plan.defines = {"HAS_COATED",        "HAS_FACETS",
-                    "HAS_ROUGH",         "HAS_ANISOTROPY",
-                    "HAS_TEXTURE",       "HAS_UNIFORM",
-                    "HAS_POINT",         "HAS_MIP",
-                    "HAS_TEXTURE_CURVE", "HAS_TEXTURE_PLACE",
-                    "HAS_MAPPING",       "HAS_SPOT",
-                    "HAS_DIRECTIONAL",   "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
+    plan.defines = {
+        "HAS_COATED",        "HAS_FACETS",        "HAS_ROUGH",
+        "HAS_ANISOTROPY",    "HAS_TEXTURE",       "HAS_UNIFORM",
+        "HAS_POINT",         "HAS_MIP",           "HAS_RELIEF",
+        "HAS_TEXTURE_CURVE", "HAS_TEXTURE_PLACE", "HAS_MAPPING",
+        "HAS_SPOT",          "HAS_DIRECTIONAL",   "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
     sd_draw draw{};
     draw.to_camera[0] = draw.to_camera[5] = draw.to_camera[10] = 1;
     draw.normal[0] = draw.normal[4] = draw.normal[8] = 1;

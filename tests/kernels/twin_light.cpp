@@ -1,4 +1,5 @@
 #include "kernels/twin.h"
+#include "kernels/twin_relief.h"
 #include "kernels/twin_surface.h"
 #include "kernels/twin_texels.h"
 
@@ -234,7 +235,7 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
             VectorOf<Real> toLight{};
             const Real strength = arriving(light, s.position, toLight);
             const Real cosLight = dot(s.normal, toLight);
-            if (!(cosLight > 0)) continue;
+            if (!(cosLight > 0) || !(dot(s.horizon, toLight) > 0)) continue;
             const Real irradiance = strength * cosLight;
             if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, irradiance, groups);
             if (lobe.type == SD_LOBE_COATED)
@@ -364,10 +365,12 @@ BlockOf<Real> light(const Plan& plan, const Vertices& vertices, const sd_frame& 
                     }
                     continue;
                 }
-                shade<Real>(
-                    plan, frame, material,
-                    surfaceAt<Real>(world, vertices, frame, id, static_cast<Real>(sx), static_cast<Real>(sy)),
-                    add);
+                auto surface =
+                    surfaceAt<Real>(world, vertices, frame, id, static_cast<Real>(sx), static_cast<Real>(sy));
+                if (material.relief != 0)
+                    bend<Real>(surface, world, vertices, id, world.textures[material.relief - 1],
+                               static_cast<Real>(plan.samples), frame.baked != 0);
+                shade<Real>(plan, frame, material, surface, add);
             }
             for (const auto& [call, entry] : adds) {
                 block.g[(offset[m] + entry.first) * SD_BLOCK + x] += pairwise(entry.second, 0, group);

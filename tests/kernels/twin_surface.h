@@ -39,12 +39,22 @@ struct SurfaceOf {
     Real u, v;
     Real ux, vx, uy, vy;  // change from pixel to pixel
     Real x, y;            // the sample, SD_SUBPIXEL-ths of a pixel from the image's centre
+    Real side;            // 1 where the outside is seen
+    VectorOf<Real> horizon;
     VectorOf<Real> tangent, bitangent;
 };
 
 template <typename Real>
 Real mixed(Real b0, Real v0, Real b1, Real v1, Real b2, Real v2) {
     return std::fma(b2, v2, std::fma(b1, v1, b0 * v0));
+}
+
+/// Tangents in the surface that has the normal, as near as may be to a vector.
+template <typename Real>
+void orient(SurfaceOf<Real>& s, VectorOf<Real> along) {
+    const VectorOf<Real> back = scaled(s.normal, -dot(s.normal, along));
+    s.tangent = unit<Real>({along.x + back.x, along.y + back.y, along.z + back.z});
+    s.bitangent = crossed(s.normal, s.tangent);
 }
 
 template <typename Real>
@@ -95,9 +105,9 @@ SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd
     const VectorOf<Real> face = crossed(e1, e2);
     const Real seen = dot(face, s.view), outward = dot(face, normal);
     normal = unit(normal);
-    s.normal = frame.baked
-                   ? normal
-                   : scaled(normal, std::copysign(Real(1.0), seen) * std::copysign(Real(1.0), outward));
+    s.side = frame.baked ? Real(1.0) : std::copysign(Real(1.0), seen) * std::copysign(Real(1.0), outward);
+    s.normal = scaled(normal, s.side);
+    s.horizon = s.normal;
     s.cosView = std::fmax(dot(s.normal, s.view), Real(1e-5f));
     if (!world.uv.empty()) {
         const auto t = corners(world.uv, 2);
@@ -127,12 +137,9 @@ SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd
     }
     if (!world.tangent.empty()) {
         const auto t = corners(vertices.tangent, 3);
-        const VectorOf<Real> along{mixed(b0, t[0][0], b1, t[1][0], b2, t[2][0]),
-                                   mixed(b0, t[0][1], b1, t[1][1], b2, t[2][1]),
-                                   mixed(b0, t[0][2], b1, t[1][2], b2, t[2][2])};
-        const VectorOf<Real> back = scaled(s.normal, -dot(s.normal, along));
-        s.tangent = unit<Real>({along.x + back.x, along.y + back.y, along.z + back.z});
-        s.bitangent = crossed(s.normal, s.tangent);
+        orient<Real>(
+            s, {mixed(b0, t[0][0], b1, t[1][0], b2, t[2][0]), mixed(b0, t[0][1], b1, t[1][1], b2, t[2][1]),
+                mixed(b0, t[0][2], b1, t[1][2], b2, t[2][2])});
     }
     return s;
 }

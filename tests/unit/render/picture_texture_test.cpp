@@ -55,7 +55,7 @@ TEST_CASE(
                     picture.pixels.push_back(static_cast<std::uint8_t>(v * 15));
     const TemporaryFolder folder;
     writePng(folder.path() / "cube.png", picture);
-    const SpectralTexture texture = textureFromPicture((folder.path() / "cube.png").string(), shipped());
+    const SpectralTexture texture = textureFromPicture(readPng(folder.path() / "cube.png"), shipped());
     REQUIRE(texture.nm.size() == 41);
     const std::vector<Triple> weights = weightsOf(texture.nm);
     Triple white{};

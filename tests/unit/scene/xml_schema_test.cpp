@@ -117,6 +117,10 @@ TEST_CASE("the format's own example is valid, and so is every form of value that
   <material name="map">
     <diffuse select="map.png" values="mix" scale="2"><choose value="0" reflectance="a"/><choose value="255" reflectance="b"/></diffuse>
     <fluorescence excitation="a" emission="b" mask="ink.png" filter="nearest"/>
+    <normal map="bricks.png" strength="0.5" wrap="repeat"/>
+  </material>
+  <material name="dented">
+    <bump height="dents.png" depth="-0.2" filter="mip"/>
   </material>
   <node name="cow" translate="0 -.5 -2e1" rotate="0 1 0 90" scale="2">
     <mesh file="cow.obj" material="ink" normals="smooth"/>
@@ -156,6 +160,8 @@ TEST_CASE("malformed scenes are invalid") {
              "<material name=\"m\"><diffuse/></material>",
              "<material name=\"m\"><diffuse reflectance=\"a\" texture=\"b\"/></material>",
              "<material name=\"m\"><diffuse select=\"a.png\"/></material>",
+             "<material name=\"m\"><bump height=\"a.png\"/></material>",
+             "<material name=\"m\"><normal map=\"a.png\" strength=\"-1\"/></material>",
              "<material name=\"m\"><diffuse reflectance=\"a\" wrap=\"repeat\"/></material>",
              "<material name=\"m\"><diffuse reflectance=\"constant:1\"><choose value=\"0\" "
              "reflectance=\"constant:1\"/></diffuse></material>",
