@@ -105,14 +105,17 @@ bool namesFilm(const std::string& observer) {
 }
 
 /// SCENE.xml#NAME is a <detector> of that scene, a film its layers; the rest is a spectrum.
-Detector Observation::wantedDetector(const std::string& observer) {
+Detector Observation::wantedDetector(const ObserverArguments& arguments) {
+    if (arguments.detector) return *arguments.detector;
+    const std::string& observer = arguments.observer;
     if (isFilm(observer, library_)) {
         film_.emplace(filmFor(observer, resolver_, library_), standard_);
         return film_->film().layers;
     }
     const size_t hash = observer.find(".xml#");
     if (hash == std::string::npos) return detectorFor(observer, resolver_, {});
-    const std::string file = observer.substr(0, hash + 4), name = observer.substr(hash + 5);
+    const std::string file = resolver_.findFile(observer.substr(0, hash + 4), {}).string(),
+                      name = observer.substr(hash + 5);
     Notes unsaid;  // that a scene has no light is no concern of its detectors
     const Scene scene = loadScene(file, library_, {}, unsaid);
     std::vector<std::string> known;
@@ -138,10 +141,10 @@ Observation::Observation(const ObserverArguments& arguments, const CubeInfo& inf
       info_(info),
       notes_(notes),
       library_(Library::open()),
-      resolver_(library_, ".", false, notes),
+      resolver_(library_, arguments.folder, arguments.restricted, notes),
       standard_(standardObserver(library_)),
       filmStops_(arguments.filmStops),
-      detector_(wantedDetector(arguments.observer)) {
+      detector_(wantedDetector(arguments)) {
     if (!detector_.tristimulus) toXyz_ = towardsXyz(detector_, standard_);
     if (!needsLight(info)) {
         weights_ = weightsOn(info.wavelengths, detector_);
@@ -232,12 +235,19 @@ White Observation::statedWhite() const {
     return known;
 }
 
+/// Who looks at a projection is adapted to its lamp, and takes the clearest film for white.
+White Observation::projectionWhite() const {
+    const CharacteristicCurve* curves = film_->film().curves.data();
+    const double clear = film_->xyz({curves[0].dmin, curves[1].dmin, curves[2].dmin})[1];
+    return withLuminance({film_->film().projectorName, film_->lamp(), false}, diffuserY * clear);
+}
+
+White Observation::whiteUnder(const std::string& name, const Curve& light) const {
+    return film_ ? projectionWhite() : whiteOf(name, light, detector_, toXyz_, {});
+}
+
 White Observation::white(const ChannelImage& image) const {
-    if (film_) {  // who looks at a projection is adapted to its lamp, and takes the clearest film for white
-        const CharacteristicCurve* curves = film_->film().curves.data();
-        const double clear = film_->xyz({curves[0].dmin, curves[1].dmin, curves[2].dmin})[1];
-        return withLuminance({film_->film().projectorName, film_->lamp(), false}, diffuserY * clear);
-    }
+    if (film_) return projectionWhite();
     if (isPlace(wanted_)) return placed(wanted_, image);
     if (wanted_ == ofImage) return meanOf(image);
     if (wanted_.empty() && !light_) return statedWhite();

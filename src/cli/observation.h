@@ -10,6 +10,7 @@
 #include "spectrum/library.h"
 #include "spectrum/resolver.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,10 @@ inline constexpr const char* whiteXyz = "whiteXYZ";  ///< its X,Y,Z with Y = 1, 
 struct ObserverArguments {
     std::string observer = "cie1931-2", white;
     double filmStops = 0;  ///< of exposure more, for a film
+    /// Where files that `observer` names are looked for, and whether no others may be read.
+    std::filesystem::path folder = ".";
+    bool restricted = false;
+    std::optional<Detector> detector{};  ///< instead of what `observer` names
 };
 void addObserverOptions(CLI::App& command, ObserverArguments& arguments);
 
@@ -47,6 +52,7 @@ class Observation {
     Observation& operator=(const Observation&) = delete;
 
     [[nodiscard]] const Detector& detector() const { return detector_; }
+    [[nodiscard]] const DetectorWeights& weights() const { return weights_; }
     [[nodiscard]] const std::optional<Spectrum>& light() const { return light_; }
     /// This detector's channels of every pixel.
     [[nodiscard]] ChannelImage channels(const Cube& cube) const;
@@ -62,10 +68,14 @@ class Observation {
 
     /// --white, else the cube's word on its scene's first light, else E. `image`: in XYZ, for "at:X,Y".
     [[nodiscard]] White white(const ChannelImage& image) const;
+    /// The chromaticity of a light for this detector; for a film, what its projection's viewer takes for
+    /// white.
+    [[nodiscard]] White whiteUnder(const std::string& name, const Curve& light) const;
 
   private:
     [[nodiscard]] White statedWhite() const;
-    [[nodiscard]] Detector wantedDetector(const std::string& observer);
+    [[nodiscard]] White projectionWhite() const;
+    [[nodiscard]] Detector wantedDetector(const ObserverArguments& arguments);
 
     std::string wanted_;  ///< --white
     CubeInfo info_;

@@ -7,8 +7,11 @@
 #include "cli/console.h"
 #include "cli/observation.h"
 #include "cli/options.h"
+#include "cli/sweep_table.h"
+#include "cli/sweep_variants.h"
 #include "colour/develop.h"
 #include "image/picture.h"
+#include "render/node_cover.h"
 #include "render/renderer.h"
 #include "spectrum/library.h"
 
@@ -18,6 +21,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <unistd.h>
 
 namespace spectrad {
 
@@ -25,271 +30,295 @@ namespace {
 
 struct SweepArguments {
     SceneArguments scene;
-    std::string output, format = "png";
+    std::string output, sweep, format = "png";
     std::vector<std::string> vary, observers, regions;
     bool json = false, quiet = false;
 };
 
-/// "A.x+B.y=one|two": attributes that take each value together.
-struct Axis {
-    std::vector<std::string> attributes, values;
+/// A detector of the sweep, and what its files are called.
+struct Looker {
+    std::unique_ptr<Observation> eye;
+    std::string name, file;
 };
 
-Axis axisOf(const std::string& text) {
-    const size_t equals = text.find('=');
-    Axis axis;
-    if (equals != std::string::npos) {
-        for (const std::string_view attribute : split(std::string_view(text).substr(0, equals), '+'))
-            axis.attributes.emplace_back(attribute);
-        for (const std::string_view value : split(std::string_view(text).substr(equals + 1), '|'))
-            axis.values.emplace_back(value);
+std::uint64_t memoryOfMachine() {
+    const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
+    return pages > 0 && bytes > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(bytes)
+                                  : ~std::uint64_t{0};
+}
+
+/// The pictures' channels wait in memory, as floats, until the last row is there: exposure needs all of them.
+void requireMemory(const Plan& plan, size_t columns) {
+    constexpr double gibi = 1 << 30;
+    const double bytes = sizeof(float) * static_cast<double>(columns) * plan.view.width * plan.view.height;
+    const auto there = static_cast<double>(memoryOfMachine());
+    if (bytes > there)
+        throw InputError(
+            fmt::format("{} channels of {} x {} pixels take {:.1f} GiB, this machine has {:.1f} "
+                        "(fewer variants, fewer detectors or a smaller --size)",
+                        columns, plan.view.width, plan.view.height, bytes / gibi, there / gibi));
+}
+
+/// A variant's fault is the command line's, or that of the scene's <vary>.
+Scene loadVariant(const std::string& file, const Library& library, const LoadOptions& options,
+                  const SourceLocation& where, Notes& notes) {
+    try {
+        return loadScene(file, library, options, notes);
+    } catch (const UsageError& error) {
+        if (where.file.empty()) throw;
+        const std::string text = error.what(), option = "--set ";
+        throw InputError(where, startsWith(text, option) ? text.substr(option.size()) : text);
     }
-    const auto empty = [](const std::string& s) { return s.empty(); };
-    if (equals == std::string::npos || std::any_of(axis.attributes.begin(), axis.attributes.end(), empty) ||
-        std::any_of(axis.values.begin(), axis.values.end(), empty))
-        throw UsageError("--vary: '" + text +
-                         "' is not NODE.ATTR[+NODE.ATTR]=VALUE|VALUE…, as in "
-                         "key.spectrum+fill.spectrum=illuminants/A|illuminants/D65");
-    return axis;
 }
 
-struct Variant {
-    std::string name;              ///< its values with dashes, for files
-    std::vector<std::string> set;  ///< --set for it
-};
-
-std::string fileName(const std::string& value) {
-    std::string name = value;
-    std::replace_if(
-        name.begin(), name.end(),
-        [](char c) { return !(std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-'); }, '_');
-    return name;
-}
-
-/// All combinations, the last axis fastest.
-std::vector<Variant> variantsOf(const std::vector<std::string>& vary) {
-    std::vector<Variant> variants{{}};
-    for (const std::string& text : vary) {
-        const Axis axis = axisOf(text);
-        std::vector<Variant> next;
-        for (const Variant& before : variants)
-            for (const std::string& value : axis.values) {
-                Variant variant = before;
-                variant.name += (variant.name.empty() ? "" : "-") + fileName(value);
-                for (const std::string& attribute : axis.attributes)
-                    variant.set.push_back(attribute + "=" + value);
-                next.push_back(std::move(variant));
-            }
-        variants = std::move(next);
-    }
-    return variants;
-}
-
-struct Region {
-    std::string name;
-    int x = 0, y = 0, width = 0, height = 0;
-};
-
-/// "NAME=X,Y,WIDTH,HEIGHT" in pixels.
-Region regionOf(const std::string& text) {
-    const size_t equals = text.find('=');
-    std::vector<long long> numbers;
-    if (equals != std::string::npos)
-        for (const std::string_view piece : split(std::string_view(text).substr(equals + 1), ','))
-            numbers.push_back(parseInteger(piece).value_or(-1));
-    if (numbers.size() != 4 || *std::min_element(numbers.begin(), numbers.end()) < 0 || numbers[2] == 0 ||
-        numbers[3] == 0 || *std::max_element(numbers.begin(), numbers.end()) > 65'536 || equals == 0)
-        throw UsageError("--region: '" + text + "' is not NAME=X,Y,WIDTH,HEIGHT in pixels, (0,0) top left");
-    return {text.substr(0, equals), static_cast<int>(numbers[0]), static_cast<int>(numbers[1]),
-            static_cast<int>(numbers[2]), static_cast<int>(numbers[3])};
-}
-
-/// What a detector's images need to become colours.
-struct Eye {
-    Detector detector;
-    XyzMatrix toXyz;
-    std::string name;  ///< for files
-};
-
-std::vector<double> meanOf(const ChannelImage& image, const Region& region) {
-    std::vector<double> mean;
-    for (const std::vector<double>& plane : image.plane) {
-        double sum = 0;
-        for (int y = region.y; y < region.y + region.height; ++y)
-            for (int x = region.x; x < region.x + region.width; ++x)
-                sum +=
-                    plane[static_cast<size_t>(y) * static_cast<size_t>(image.width) + static_cast<size_t>(x)];
-        mean.push_back(sum / (static_cast<double>(region.width) * region.height));
-    }
-    return mean;
-}
-
-/// One row of the table.
-Json rowOf(const std::string& variant, const Eye& eye, const Region& region, const ChannelImage& channels,
-           const White& white) {
-    const std::vector<double> mean = meanOf(channels, region);
-    const Triple xyz = eye.detector.tristimulus ? Triple{mean[0], mean[1], mean[2]} : toXyz(eye.toXyz, mean);
-    Json row{{"variant", variant}, {"detector", eye.detector.name}, {"region", region.name}, {"XYZ", xyz}};
-    const auto xy = chromaticity(xyz);
-    row["xy"] = xy ? Json(*xy) : Json();
-    const bool whole = *std::min_element(white.xyz.begin(), white.xyz.end()) > 0;
-    row["Lab"] = whole ? Json(lab(xyz, white.xyz)) : Json();
-    for (size_t c = 0; c < mean.size(); ++c)
-        row["channels"][eye.detector.channels[c]] = mean[c];
-    return row;
-}
-
-std::string csvOf(const Json& rows) {
-    std::string text = "variant,detector,region,X,Y,Z,x,y,L,a,b\n";
-    for (const Json& row : rows) {
-        text += fmt::format("{},\"{}\",{}", row.at("variant").get<std::string>(),
-                            row.at("detector").get<std::string>(), row.at("region").get<std::string>());
-        for (const auto& [key, count] : {std::pair{"XYZ", 3}, std::pair{"xy", 2}, std::pair{"Lab", 3}})
-            for (int i = 0; i < count; ++i)
-                text += row.at(key).is_null()
-                            ? ","
-                            : "," + rounded(row.at(key)[static_cast<size_t>(i)].get<double>(), 9);
-        text += '\n';
-    }
-    return text;
-}
-
-class Sweep {
+class Sweeping {
   public:
-    Sweep(const SweepArguments& arguments, Console& console)
-        : arguments_(arguments),
-          library_(Library::open()),
-          resolver_(library_, ".", false, console.notes()),
-          standard_(standardObserver(library_)) {
-        for (const std::string& observer : arguments.observers) {
-            Eye eye{detectorFor(observer, resolver_, {}), {}, fileName(observer)};
-            if (!eye.detector.tristimulus) eye.toXyz = towardsXyz(eye.detector, standard_);
-            eyes_.push_back(std::move(eye));
+    Sweeping(SweepArguments arguments, Console& console)
+        : arguments_(std::move(arguments)), console_(console), library_(Library::open()) {
+        std::vector<SweepAxis> axes;
+        for (const std::string& text : arguments_.vary)
+            axes.push_back(parseAxis(text));
+        for (const std::string& text : arguments_.regions)
+            wanted_.push_back(parseRegion(text));
+        const Scene scene =
+            loadScene(arguments_.scene.file, library_, loadOptions(arguments_.scene), unsaid_);
+        const Sweep* asked = chooseSweep(scene, arguments_.sweep);
+        if (asked && arguments_.scene.camera.empty() && arguments_.scene.pass.empty()) {
+            arguments_.scene.camera = asked->camera;
+            arguments_.scene.pass = asked->pass;
         }
-        for (const std::string& region : arguments.regions)
-            regions_.push_back(regionOf(region));
-        const std::vector<Variant> variants = variantsOf(arguments.vary);
-        std::vector<Plan> plans;
-        std::vector<std::string> names;
-        const RenderSettings settings = renderSettings(arguments.scene);
-        for (const Variant& variant : variants) {
-            LoadOptions options = loadOptions(arguments.scene);
-            options.set.insert(options.set.end(), variant.set.begin(), variant.set.end());
-            Scene scene = loadScene(arguments.scene.file, library_, options, console.notes());
-            light_.push_back(scene.lights.empty() ? Curve::constant(1)
-                                                  : scene.lights.front().emitter.spectrum.curve());
-            separateLights(scene);
-            Notes notes;
-            plans.push_back(makePlan(scene, settings, library_, notes));
-            for (const std::string& line : notes.lines())
-                console.notes().say(withoutMarks(line));
-            if (plans.back().as != PassKind::radiance)
-                throw InputError("a sweep shows radiance; the pass asks for something else");
-            names.push_back(variant.name.empty() ? "scene" : variant.name);
-        }
-        const Plan& first = plans.front();
-        for (const Region& region : regions_)
-            if (region.x + region.width > first.view.width || region.y + region.height > first.view.height)
-                throw InputError(fmt::format("the region '{}' lies outside the image of {} x {} pixels",
-                                             region.name, first.view.width, first.view.height));
+        settings_ = renderSettings(arguments_.scene);
+        planVariants(axes.empty() && asked ? asked->axes : axes);
+        addLookers(scene, asked);
         std::vector<DetectorWeights> weights;
-        for (const Eye& eye : eyes_)
-            weights.push_back(weightsOn(first.wavelengths, eye.detector));
-        names_ = names;
-        sweep_ = sweepPlan(std::move(plans), names, weights);
+        for (const Looker& looker : lookers_)
+            weights.push_back(looker.eye->weights());
+        requireMemory(plans_.front(), columnsOf(weights) * plans_.size());
+        sweep_ = sweepPlan(std::move(plans_), names_, weights);
+        addRegions(scene);
     }
 
     /// Renders once; returns the table.
     Json run(const Device& device) {
+        coverRegions(device);
         const Plan& plan = sweep_.plan;
-        std::vector<std::vector<ChannelImage>> images;
-        for (size_t v = 0; v < names_.size(); ++v) {
-            images.emplace_back();
-            for (const Eye& eye : eyes_)
-                images.back().emplace_back(plan.view.width, plan.view.height, eye.detector.size());
-        }
+        const size_t columns = plan.terms.bands, width = static_cast<size_t>(plan.view.width);
+        columns_.assign(columns, std::vector<float>(width * static_cast<size_t>(plan.view.height)));
         Renderer renderer(device, plan);
-        renderer.render([&](int firstRow, int rows, const float* columns, const float*) {
-            const auto width = static_cast<size_t>(plan.view.width);
-            for (size_t v = 0; v < names_.size(); ++v)
-                for (size_t d = 0; d < eyes_.size(); ++d)
-                    for (size_t c = 0; c < eyes_[d].detector.size(); ++c)
-                        for (size_t row = 0; row < static_cast<size_t>(rows); ++row) {
-                            const float* from =
-                                columns + (row * plan.terms.bands + sweep_.column(v, d) + c) * width;
-                            std::copy(from, from + width,
-                                      images[v][d].plane[c].begin() +
-                                          static_cast<std::ptrdiff_t>((static_cast<size_t>(firstRow) + row) *
-                                                                      width));
+        {
+            ProgressBar bar("rendering", arguments_.quiet);
+            renderer.render(
+                [&](int firstRow, int rows, const float* values, const float*) {
+                    for (size_t row = 0; row < static_cast<size_t>(rows); ++row)
+                        for (size_t c = 0; c < columns; ++c) {
+                            const float* from = values + (row * columns + c) * width;
+                            std::copy(
+                                from, from + width,
+                                columns_[c].begin() + static_cast<std::ptrdiff_t>(
+                                                          (static_cast<size_t>(firstRow) + row) * width));
                         }
-        });
+                },
+                [&](double share) { bar.show(share); });
+        }
         build = renderer.times().build;
         rendering = renderer.times().render;
         const Stopwatch clock;
         Json rows = Json::array();
+        ProgressBar bar("writing", arguments_.quiet);
+        const auto pictures = static_cast<double>(names_.size() * lookers_.size());
         for (size_t v = 0; v < names_.size(); ++v)
-            for (size_t d = 0; d < eyes_.size(); ++d)
-                finish(v, eyes_[d], images[v][d], rows);
+            for (size_t d = 0; d < lookers_.size(); ++d) {
+                finish(v, d, rows);
+                bar.show(static_cast<double>(v * lookers_.size() + d + 1) / pictures);
+            }
         writing = clock.seconds();
         return rows;
     }
 
+    [[nodiscard]] bool measures() const { return !regions_.empty(); }
+
     double build = 0, rendering = 0, writing = 0;
 
   private:
-    void finish(size_t variant, const Eye& eye, const ChannelImage& channels, Json& rows) {
-        const std::string base =
-            (std::filesystem::path(arguments_.output) / (names_[variant] + "-" + eye.name)).string();
-        const ChannelImage xyz = eye.detector.tristimulus ? channels : toXyz(eye.toXyz, channels);
-        const White chromaticity = whiteOf("first light", light_[variant], eye.detector, eye.toXyz, {});
-        if (arguments_.format != "none") {
-            if (arguments_.format == "exr") {
-                writeChannelsExr(base + ".exr", channels.width, channels.height, eye.detector.channels,
-                                 floatPlanes(channels, eye.detector.channels),
-                                 {{"observer", eye.detector.name}});
-            } else {
-                DevelopSettings settings;
-                settings.white = chromaticity;
-                const DevelopedPicture picture = develop(xyz, settings);
-                writePng(base + ".png", {picture.width, picture.height, 3, picture.rgb},
-                         {{"Software", "spectrad " SPECTRAD_VERSION}});
+    static size_t columnsOf(const std::vector<DetectorWeights>& weights) {
+        size_t columns = 0;
+        for (const DetectorWeights& detector : weights)
+            columns += detector.weights.size();
+        return columns;
+    }
+
+    void planVariants(const std::vector<SweepAxis>& axes) {
+        for (const SweepVariant& variant : variantsOf(axes)) {
+            LoadOptions options = loadOptions(arguments_.scene);
+            options.set.insert(options.set.end(), variant.set.begin(), variant.set.end());
+            Scene scene =
+                loadVariant(arguments_.scene.file, library_, options, variant.where, console_.notes());
+            light_.push_back(scene.lights.empty() ? Curve::constant(1)
+                                                  : scene.lights.front().emitter.spectrum.curve());
+            separateLights(scene);
+            Notes notes;
+            plans_.push_back(makePlan(scene, settings_, library_, notes));
+            for (const std::string& line : notes.lines())
+                console_.notes().say(withoutMarks(line));
+            if (plans_.back().as != PassKind::radiance)
+                throw InputError("a sweep shows radiance; the pass asks for something else");
+            names_.push_back(variant.name.empty() ? "scene" : variant.name);
+        }
+    }
+
+    /// The command line's observers; else the scene's, which read what the scene may.
+    void addLookers(const Scene& scene, const Sweep* asked) {
+        std::vector<std::string> names = arguments_.observers;
+        const bool own = names.empty() && asked && !asked->detectors.empty();
+        if (own) names = asked->detectors;
+        if (names.empty()) names = {"cie1931-2"};
+        CubeInfo info;
+        info.wavelengths = plans_.front().wavelengths;
+        for (const std::string& name : names) {
+            ObserverArguments observer;
+            observer.observer = name;
+            if (own) {
+                observer.folder = std::filesystem::path(scene.file).parent_path();
+                observer.restricted = arguments_.scene.restricted;
+                for (const DetectorUse& use : scene.detectors)
+                    if (use.name == name) observer.detector = detectorFrom(use.sensitivity);
             }
+            if (observer.detector) observer.detector->name = name;
+            try {
+                auto eye = std::make_unique<Observation>(observer, info, console_.notes());
+                lookers_.push_back({std::move(eye), name, fileName(name)});
+            } catch (const InputError& error) {
+                if (!own) throw;
+                throw InputError(asked->where, fmt::format("detector '{}': {}", name, error.what()));
+            }
+        }
+    }
+
+    void addRegions(const Scene& scene) {
+        wanted_.insert(wanted_.begin(), scene.regions.begin(), scene.regions.end());
+        const View& view = sweep_.plan.view;
+        std::vector<Index> nodes;
+        for (const Region& region : wanted_) {
+            if (region.node) nodes.push_back(*region.node);
+            const PixelRect rect = region.rect.value_or(PixelRect{});
+            if (rect.x + rect.width > view.width || rect.y + rect.height > view.height)
+                throw InputError(region.where,
+                                 fmt::format("the region '{}' lies outside the image of {} x {} pixels",
+                                             region.name, view.width, view.height));
+        }
+        if (nodes.empty()) return;
+        RenderSettings settings = settings_;
+        settings.wavelengths = coverWavelengths(nodes.size());
+        settings.projection.reset();
+        settings.only = Only::everything;
+        Notes unsaid;
+        cover_ = makePlan(coverScene(scene, nodes), settings, library_, unsaid);
+    }
+
+    /// Finds the regions' pixels: of a node those that it fills, since others show what stands behind, too.
+    void coverRegions(const Device& device) {
+        const View& view = sweep_.plan.view;
+        const auto width = static_cast<size_t>(view.width), height = static_cast<size_t>(view.height);
+        std::vector<std::vector<size_t>> filled;
+        if (cover_) {
+            constexpr float full = 1 - 1e-5F;
+            const size_t count = cover_->terms.bands;
+            filled.resize(count);
+            Renderer(device, *cover_).render([&](int first, int rows, const float* values, const float*) {
+                for (size_t row = 0; row < static_cast<size_t>(rows); ++row)
+                    for (size_t i = 0; i < count; ++i)
+                        for (size_t x = 0; x < width; ++x)
+                            if (values[(row * count + i) * width + x] > full)
+                                filled[i].push_back((static_cast<size_t>(first) + row) * width + x);
+            });
+        }
+        size_t next = 0;
+        for (const Region& region : wanted_) {
+            MeasuredRegion measured{region.name, {}};
+            if (region.node) {
+                measured.pixels = std::move(filled[next++]);
+                if (measured.pixels.empty())
+                    throw InputError(region.where, fmt::format("the node of region '{}' fills no pixel of "
+                                                               "this picture of {} x {}",
+                                                               region.name, width, height));
+            } else {
+                for (int y = region.rect->y; y < region.rect->y + region.rect->height; ++y)
+                    for (int x = region.rect->x; x < region.rect->x + region.rect->width; ++x)
+                        measured.pixels.push_back(static_cast<size_t>(y) * width + static_cast<size_t>(x));
+            }
+            regions_.push_back(std::move(measured));
+        }
+    }
+
+    /// Takes the picture's columns out of memory, writes it and measures it.
+    void finish(size_t variant, size_t looker, Json& rows) {
+        const Observation& eye = *lookers_[looker].eye;
+        const Detector& detector = eye.detector();
+        const std::string& file = lookers_[looker].file;
+        ChannelImage channels(sweep_.plan.view.width, sweep_.plan.view.height, detector.size());
+        for (size_t c = 0; c < detector.size(); ++c) {
+            std::vector<float>& column = columns_[sweep_.column(variant, looker) + c];
+            channels.plane[c].assign(column.begin(), column.end());
+            column = {};
+        }
+        const std::string base =
+            (std::filesystem::path(arguments_.output) / (names_[variant] + "-" + file)).string();
+        const ChannelImage xyz = eye.xyz(channels);
+        const White chromaticity = eye.whiteUnder("first light", light_[variant]);
+        if (arguments_.format == "exr") {
+            writeChannelsExr(base + ".exr", channels.width, channels.height, detector.channels,
+                             floatPlanes(channels, detector.channels), {{"observer", detector.name}});
+        } else if (arguments_.format == "png") {
+            DevelopSettings settings;
+            settings.white = chromaticity;
+            const DevelopedPicture picture = develop(xyz, settings);
+            writePng(base + ".png", {picture.width, picture.height, 3, picture.rgb},
+                     {{"Software", "spectrad " SPECTRAD_VERSION}});
         }
         if (regions_.empty()) return;
         const double bright = brightest(xyz);
-        const White white = withLuminance(chromaticity, bright > 0 ? bright : 1);
-        for (const Region& region : regions_)
-            rows.push_back(rowOf(names_[variant], eye, region, channels, white));
+        const SweepImage image{names_[variant],
+                               lookers_[looker].name,
+                               eye,
+                               channels,
+                               withLuminance(chromaticity, bright > 0 ? bright : 1),
+                               eye.metered(channels)};
+        for (const MeasuredRegion& region : regions_)
+            rows.push_back(sweepRow(image, region));
     }
 
-    const SweepArguments& arguments_;
+    SweepArguments arguments_;
+    Console& console_;
+    Notes unsaid_;  ///< of the scene itself; its variants say the same
     Library library_;
-    SpectrumResolver resolver_;
-    Detector standard_;
-    std::vector<Eye> eyes_;
-    std::vector<Region> regions_;
+    RenderSettings settings_;
+    std::vector<Plan> plans_;
     std::vector<Curve> light_;  ///< of each variant: its first light
     std::vector<std::string> names_;
+    std::vector<Looker> lookers_;
     SweepPlan sweep_;
+    std::vector<Region> wanted_;
+    std::optional<Plan> cover_;  ///< of regions that are nodes
+    std::vector<MeasuredRegion> regions_;
+    std::vector<std::vector<float>> columns_;  ///< by sweep_.column()
 };
 
-ExitCode sweepScene(SweepArguments arguments) {
-    if (arguments.observers.empty()) arguments.observers = {"cie1931-2"};
+ExitCode sweepScene(const SweepArguments& arguments) {
     if (arguments.format != "png" && arguments.format != "exr" && arguments.format != "none")
         throw UsageError("--format: '" + arguments.format + "' is not known (allowed: png, exr, none)");
     Console console(arguments.quiet);
     const Stopwatch clock;
     const std::optional<int> number = deviceNumber(arguments.scene.device);
-    Sweep sweep(arguments, console);
+    Sweeping sweep(arguments, console);
     const Device device = Device::open(number);
     std::error_code failed;
     std::filesystem::create_directories(arguments.output, failed);
     if (failed) throw MachineError("cannot make the folder '" + arguments.output + "': " + failed.message());
     const double planned = clock.seconds();
     const Json rows = sweep.run(device);
-    if (!arguments.regions.empty()) {
+    if (sweep.measures()) {
         const std::filesystem::path folder = arguments.output;
-        writeFile(folder / "sweep.csv", csvOf(rows));
+        writeFile(folder / "sweep.csv", sweepCsv(rows));
         writeFile(folder / "sweep.json", rows.dump(2) + "\n");
     }
     console.printNotes();
@@ -322,10 +351,19 @@ void addSweep(CLI::App& app, Action& action) {
                      "repeated, then every combination")
         ->type_name("NODE.ATTR=VALUE|VALUE")
         ->allow_extra_args(false);
-    command->add_option("--observer", arguments->observers, "a detector, may be repeated; default: cie1931-2")
+    command
+        ->add_option("--sweep", arguments->sweep,
+                     "which <sweep> of the scene, if it has several; --vary and --observer go before what it "
+                     "says")
+        ->type_name("NAME");
+    command
+        ->add_option("--observer", arguments->observers,
+                     "a detector, camera or film, may be repeated; default: the sweep's, else cie1931-2")
         ->type_name("NAME|FILE|PRODUCT")
         ->allow_extra_args(false);
-    command->add_option("--region", arguments->regions, "a rectangle to measure, may be repeated")
+    command
+        ->add_option("--region", arguments->regions,
+                     "a rectangle to measure beside the scene's regions, may be repeated")
         ->type_name("NAME=X,Y,W,H")
         ->allow_extra_args(false);
     command
@@ -337,10 +375,12 @@ void addSweep(CLI::App& app, Action& action) {
     command->add_flag("--json", arguments->json, "print a JSON object: seconds, and the table");
     command->add_flag("-q,--quiet", arguments->quiet, "no remarks on standard error");
     command->footer(
-        "Geometry is rasterized once, whatever the number of variants (a value may change spectra only). The "
+        "Geometry is rasterized once, whatever the number of variants (a value may change spectra only). A "
+        "scene may hold all of it: <sweep>, <vary> and <region> (docs/format.md). The "
         "table holds XYZ (Y in "
         "cd/m2), chromaticity and CIELAB against the first light at the image's brightest Y.\n\n"
         "Examples:\n"
+        "  spectrad sweep scene.xml -o out\n"
         "  spectrad sweep scene.xml -o out --vary "
         "'key.spectrum+fill.spectrum=illuminants/A|illuminants/D65'\n"
         "  spectrad sweep scene.xml -o out --vary 'key.spectrum=illuminants/A|illuminants/FL11' \\\n"

@@ -46,7 +46,7 @@ std::vector<ElementRule> makeGrammar() {
     const std::string transform(transforms), amount(amounts), sampling(samplings);
     return {
         rule("scene", "version unit",
-             "wavelengths1 spectrum material " + graph + " background1 detector pass"),
+             "wavelengths1 spectrum material " + graph + " background1 detector pass region sweep"),
         rule("wavelengths", "from to step projection", "#text"),
         rule("spectrum", "name! quantity relative value file column", "#text"),
         rule("material", "name!",
@@ -82,6 +82,9 @@ std::vector<ElementRule> makeGrammar() {
         rule("pass",
              "name! scene camera of mirror lights size samples wavelengths projection as through display "
              "luminance repeat save"),
+        rule("region", "name! rect node"),
+        rule("sweep", "name! detectors camera pass", "vary"),
+        rule("vary", "attributes! values!"),
     };
 }
 

@@ -112,6 +112,7 @@ Scene readScene(const std::filesystem::path& path, const Library& library, const
         notes.say("the scene has no camera: it is framed from the front, a little above");
     }
     readPasses(reading);
+    readBatch(reading);
     warnOfUnused(reading);
     if (!hasLight(reading)) notes.warn({path.string(), 0, 0}, "the scene has no light: it is black");
     reading.scene.filesRead = reading.files.list();

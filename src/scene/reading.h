@@ -79,6 +79,8 @@ void readBackground(Reading& reading);
 void readDetectors(Reading& reading);
 void readPasses(Reading& reading);  ///< also checks that textures name passes that are there, of their type
 
+void readBatch(Reading& reading);  ///< regions and sweeps, after all that they name
+
 /// Parts of the graph, called by readGraph.
 [[nodiscard]] Light readLight(Reading& reading, const Element& element);
 [[nodiscard]] Camera readCamera(Reading& reading, const Element& element);

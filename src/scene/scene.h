@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/vec.h"
+#include "scene/batch.h"
 #include "scene/mesh.h"
 #include "scene/shapes.h"
 #include "spectrum/spectrum.h"
@@ -243,6 +244,8 @@ struct Scene {
     std::vector<Camera> cameras;
     std::vector<DetectorUse> detectors;
     std::vector<Pass> passes;
+    std::vector<Region> regions;
+    std::vector<Sweep> sweeps;
     std::optional<Emitter> background;
 };
 

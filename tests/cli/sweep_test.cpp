@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 using cli::Folder;
@@ -85,4 +86,104 @@ TEST_CASE("A sweep refuses what changes more than spectra, and says what it want
     requireError(run(folder, {"sweep", "s.xml", "-o", "out", "--region", "r=1,2"}), 2, "--region");
     requireError(run(folder, {"sweep", "s.xml", "-q", "-o", "out", "--region", "r=60,2,10,2"}), 1,
                  "outside the image");
+}
+
+namespace {
+
+// A red plane of 32 x 32 pixels whose right half a blue one hides, and the same red one by itself as an
+// instance.
+constexpr const char* batch =
+    "<scene version=\"1\"><wavelengths from=\"380\" to=\"780\" step=\"10\"/>\n"
+    "<material name=\"red\"><diffuse reflectance=\"charts/colorchecker/red\"/></material>\n"
+    "<material name=\"blue\"><diffuse reflectance=\"charts/colorchecker/blue\"/></material>\n"
+    "<node name=\"back\"><plane size=\"1 1\" material=\"red\"/></node>\n"
+    "<node name=\"pair\"><node name=\"front\" translate=\"0.25 0 0.5\"><plane size=\"0.5 1\" "
+    "material=\"blue\"/></node>\n"
+    "<instance name=\"again\" of=\"back\" translate=\"-1.5 0 0\"/></node>\n"
+    "<light name=\"key\" type=\"ambient\" spectrum=\"illuminants/D65\" luminance=\"50 cd/m2\"/>\n"
+    "<camera type=\"orthographic\" height=\"2\" look-from=\"0 0 4\" look-at=\"0 0 0\" size=\"128x64\"/>\n"
+    "<detector name=\"eye\" observer=\"cie1964-10\"/>\n"
+    "<region name=\"back\" node=\"back\"/><region name=\"front\" node=\"front\"/>\n"
+    "<region name=\"pair\" node=\"pair\"/><region name=\"again\" node=\"again\"/>\n"
+    "<region name=\"pixel\" rect=\"52 32 1 1\"/>\n"
+    "<sweep name=\"lamps\" detectors=\"eye generic-reversal\">\n"
+    "<vary attributes=\"key.spectrum\" values=\"illuminants/D65 | illuminants/A\"/></sweep>\n"
+    "</scene>\n";
+
+std::string changed(const std::string& from, const std::string& to) {
+    std::string text = batch;
+    const size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "A scene's own sweep measures its regions; a node's are the pixels that it fills, not those of its "
+    "instances") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    folder.write("s.xml", batch);
+    const Outcome swept = run(folder, {"sweep", "s.xml", "-o", "out", "-q", "--json"});
+    INFO(swept.err);
+    REQUIRE(swept.code == 0);
+    const json rows = swept.json().at("regions");
+    REQUIRE(rows.size() == 2 * 2 * 5);
+    const std::map<std::string, int> pixels{
+        {"back", 512}, {"front", 512}, {"pair", 512 + 1024}, {"again", 1024}, {"pixel", 1}};
+    for (const json& row : rows) {
+        CHECK(row.at("pixels") == pixels.at(row.at("region")));
+        // One flat colour: all that is red is the same.
+        if (row.at("region") == "back") {
+            const Outcome rendered =
+                run(folder, {"render", "s.xml", "-o", "one.exr", "-q", "--set",
+                             row.at("variant") == "illuminants_A" ? "key.spectrum=illuminants/A"
+                                                                  : "key.spectrum=illuminants/D65"});
+            REQUIRE(rendered.code == 0);
+            const bool film = row.at("detector") == "generic-reversal";
+            const json reading = run(folder, {"measure", "one.exr", "--json", "-q", "--at", "52,32",
+                                              "--observer", film ? "generic-reversal" : "cie1964-10"})
+                                     .json()[0];
+            const json& xyz = film ? reading.at("rendered").at("XYZ") : reading.at("XYZ");
+            for (size_t k = 0; k < 3; ++k)
+                CHECK(row.at("XYZ")[k].get<double>() == Approx(xyz[k].get<double>()).epsilon(1e-4));
+        }
+    }
+    CHECK(std::filesystem::exists(folder / "out/illuminants_A-generic-reversal.png"));
+    // The command line goes before the scene.
+    const Outcome other = run(folder, {"sweep", "s.xml", "-o", "out", "-q", "--json", "--observer",
+                                       "nikon-5100", "--format", "none"});
+    CHECK(other.json().at("regions").size() == 2 * 5);
+}
+
+TEST_CASE("What is wrong with a scene's sweep is said with its place") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    const auto complaint = [&](const std::string& text) {
+        folder.write("s.xml", text);
+        const Outcome outcome = run(folder, {"sweep", "s.xml", "-o", "out", "-q"});
+        CHECK(outcome.code == 1);
+        return outcome.err;
+    };
+    using Catch::Matchers::Contains;
+    CHECK_THAT(complaint(changed("eye generic", "eyes generic")), Contains("s.xml:13:1: detector 'eyes'"));
+    CHECK_THAT(
+        complaint(changed("\"key.spectrum", "\"keys.spectrum")),
+        Contains(
+            "s.xml:14:1: keys.spectrum=illuminants/D65: no element is named 'keys' (did you mean 'key'?)"));
+    CHECK_THAT(complaint(changed("\"key.spectrum", "\"spectrum")),
+               Contains("s.xml:14:1: ") && Contains("is not NAME.ATTRIBUTE"));
+    CHECK_THAT(complaint(changed("D65 | ", "D65 || ")), Contains("a value is empty"));
+    CHECK_THAT(complaint(changed("52 32 1 1", "52 64 1 1")),
+               Contains("s.xml:12:1: the region 'pixel' lies outside the image of 128 x 64 pixels"));
+    CHECK_THAT(complaint(changed("52 32 1 1", "52 32 0 1")), Contains("s.xml:12:1: rect="));
+    CHECK_THAT(complaint(changed("name=\"pixel\" rect", "name=\"pixel\" node=\"back\" rect")),
+               Contains("s.xml:12:1: <region> needs either 'rect' (pixels) or 'node', not both"));
+    CHECK_THAT(
+        complaint(changed(
+            "<region name=\"pair\" node=\"pair\"/>",
+            "<node name=\"gone\" translate=\"0 0 9\"><sphere/></node><region name=\"g\" node=\"gone\"/>")),
+        Contains("the node of region 'g' fills no pixel of this picture of 128 x 64"));
+    CHECK_FALSE(std::filesystem::exists(folder / "out/sweep.csv"));
 }

@@ -64,7 +64,7 @@ constexpr Refused files[] = {
 /// What stands on line 2 of a scene.
 constexpr Refused contents[] = {
     {R"(<spere radius="1"/>)",
-     R"(scene.xml:2:1: unknown element <spere> in <scene> (allowed: wavelengths, spectrum, material, mesh, sphere, box, plane, disc, cylinder, cone, torus, teapot, node, instance, import, light, camera, background, detector, pass; did you mean <sphere>?))"},
+     R"(scene.xml:2:1: unknown element <spere> in <scene> (allowed: wavelengths, spectrum, material, mesh, sphere, box, plane, disc, cylinder, cone, torus, teapot, node, instance, import, light, camera, background, detector, pass, region, sweep; did you mean <sphere>?))"},
     {R"(<node><sphere radios="1"/></node>)",
      R"(scene.xml:2:7: unknown attribute 'radios' in <sphere> (allowed: radius, material; did you mean 'radius'?))"},
     {R"(<node><box radius="1"/></node>)",
@@ -73,7 +73,7 @@ constexpr Refused contents[] = {
   <sphere radius="1" radius="2"/></node>)",
      R"(scene.xml:3:3: attribute 'radius' stands twice in <sphere>)"},
     {R"(<bind material="a" to="b"/>)",
-     R"(scene.xml:2:1: misplaced element <bind> in <scene> (it stands in <import>; allowed here: wavelengths, spectrum, material, mesh, sphere, box, plane, disc, cylinder, cone, torus, teapot, node, instance, import, light, camera, background, detector, pass))"},
+     R"(scene.xml:2:1: misplaced element <bind> in <scene> (it stands in <import>; allowed here: wavelengths, spectrum, material, mesh, sphere, box, plane, disc, cylinder, cone, torus, teapot, node, instance, import, light, camera, background, detector, pass, region, sweep))"},
     {R"(<node><scene/></node>)",
      R"(scene.xml:2:7: misplaced element <scene> in <node> (it is the root; allowed here: mesh, sphere, box, plane, disc, cylinder, cone, torus, teapot, node, instance, import, light, camera))"},
     {R"(<node>hello</node>)",
