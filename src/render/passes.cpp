@@ -27,6 +27,7 @@ struct PassTextures::Body {
     [[nodiscard]] Cube render(size_t node);
     [[nodiscard]] Cube renderPlain(size_t node, Substitute substitute, bool oneBand, Plan* used = nullptr);
     [[nodiscard]] Cube divided(size_t node, Cube cube);
+    [[nodiscard]] Cube uncovered(size_t node, Plan& used);
     [[nodiscard]] SpectralTexture texture(size_t user, const Pass& pass, const TextureUse& use);
 };
 
@@ -65,12 +66,8 @@ PassTextures::PassTextures(const Scene& scene, const Library& library, const Dev
     : TextureLoader(*chooseShot(scene, settings).scene, library, notes),
       body_(new Body{device, library, notes, std::move(save), renderGraph(scene, settings, notes), {}, {}}) {
     limitTo(device.info());
-    for (const GraphNode& node : body_->graph) {
-        if (node.shot.pass && node.shot.pass->as == PassKind::transmittance)
-            throw InputError(node.shot.pass->where,
-                             "pass '" + node.shot.pass->name + "': as=\"transmittance\" is not there yet");
+    for (const GraphNode& node : body_->graph)
         body_->waiting.push_back(node.users);
-    }
     body_->cubes.resize(body_->graph.size());
 }
 
@@ -164,11 +161,13 @@ Cube PassTextures::Body::render(size_t number) {
     const Pass* pass = node.shot.pass;
     const PassKind as = node.settings.bake ? node.settings.bake->as : pass ? pass->as : PassKind::radiance;
     Plan plan;
-    Cube cube = renderPlain(number,
-                            as == PassKind::reflectance  ? Substitute::equalEnergy
-                            : as == PassKind::irradiance ? Substitute::irradiance
-                                                         : Substitute::none,
-                            false, &plan);
+    Cube cube = as == PassKind::transmittance
+                    ? uncovered(number, plan)
+                    : renderPlain(number,
+                                  as == PassKind::reflectance  ? Substitute::equalEnergy
+                                  : as == PassKind::irradiance ? Substitute::irradiance
+                                                               : Substitute::none,
+                                  false, &plan);
     // What a white Lambertian surface sends back is the irradiance over π, lamp by lamp.
     if (as == PassKind::irradiance)
         for (float& value : cube.values)
@@ -189,6 +188,21 @@ Cube PassTextures::Body::render(size_t number) {
     const bool last = number + 1 == graph.size();
     if (save && pass && !last && !pass->save.empty() && node.generation + 1 == std::max(pass->repeat, 1))
         save(*pass, plan, cube);
+    return cube;
+}
+
+/// The share of light from behind that gets past the surfaces to the eye. These are opaque: it is what they
+/// leave of the pixel, alike at all wavelengths.
+Cube PassTextures::Body::uncovered(size_t number, Plan& used) {
+    const Cube covered = renderPlain(number, Substitute::coverage, true, &used);
+    Cube cube;
+    cube.info = covered.info;
+    cube.info.wavelengths = used.wavelengths = graph[number].grid;
+    const auto width = static_cast<size_t>(cube.info.width);
+    for (int row = 0; row < cube.info.height; ++row)
+        for (size_t band = 0; band < cube.info.wavelengths.size(); ++band)
+            for (size_t x = 0; x < width; ++x)
+                cube.values.push_back(std::max(0.0f, 1.0f - covered.row(row, 0)[x]));
     return cube;
 }
 

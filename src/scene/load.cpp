@@ -54,6 +54,11 @@ void warnOfUnused(const Reading& reading) {
 
 bool hasLight(const Reading& reading) {
     const Scene& scene = reading.scene;
+    // What a transmittance tells of needs no light.
+    if (!scene.passes.empty() && std::all_of(scene.passes.begin(), scene.passes.end(), [](const Pass& pass) {
+            return pass.as == PassKind::transmittance;
+        }))
+        return true;
     if (!scene.lights.empty() || scene.background) return true;
     for (size_t i = 0; i < scene.materials.size(); ++i)
         if (scene.materials[i].emission && isUsed(reading, i)) return true;

@@ -253,6 +253,64 @@ TEST_CASE("an irradiance is what the lamps send: each with its spectrum, by cosi
     CHECK(worst.error < 1e-5);
 }
 
+TEST_CASE(
+    "a transmittance is what surfaces leave of each pixel, whatever the light: a cube behind them shows "
+    "through as if it stood there") {
+    if (!haveDevice()) return;
+    // An edge after a quarter of column 15, and a ball with all its outlines.
+    const std::string scene =
+        R"(<scene version="1"><wavelengths from="400" to="700" step="100"/>
+        <material name="m"><diffuse reflectance="constant:0.5"/></material>
+        <node name="things"><node translate="-1.25 0 0"><plane size="1.55 2" material="m"/></node>
+          <node translate="1.3 0 0"><sphere radius="0.6" material="m"/></node></node>
+        <light type="directional" direction="0 0 -1" spectrum="illuminants/D65" illuminance="1000 lx"/>
+        <background spectrum="illuminants/A" luminance="50 cd/m2"/>
+        <camera type="orthographic" height="2" look-from="0 0 5" look-at="0 0 0" size="40x20"/>
+        <pass name="through" of="things" as="transmittance" samples="64"/>
+        <pass name="before" of="things" samples="64"/></scene>)";
+    const auto cubeOf = [](const std::string& text, const std::string& pass) {
+        RenderSettings settings;
+        settings.pass = pass;
+        Notes notes;
+        const Scene read = sceneFrom(text);
+        return PassTextures(read, library(), device(), settings, notes).render();
+    };
+    const Cube through = cubeOf(scene, "through");
+    CHECK(through.info.kind == CubeKind::transmittance);
+    REQUIRE(through.info.wavelengths.nm == std::vector<double>{400, 500, 600, 700});
+    double covered = 0;
+    for (int row = 0; row < 20; ++row) {
+        for (size_t band = 0; band < 4; ++band) {
+            CHECK(through.row(row, band)[14] == 0);
+            CHECK(through.row(row, band)[15] == 0.75f);
+            CHECK(through.row(row, band)[16] == 1);
+            CHECK(std::equal(through.row(row, band), through.row(row, band) + 40, through.row(row, 0)));
+        }
+        for (size_t x = 20; x < 40; ++x)
+            covered += 0.01 * (1 - through.row(row, 0)[x]);
+    }
+    CHECK(covered == Approx(std::numbers::pi * 0.36).epsilon(0.02));
+    const Cube whole = cubeOf(scene, "before");
+    std::string dark = scene, lone = scene;
+    dark.replace(dark.find("<background"), dark.find("<camera") - dark.find("<background"), "");
+    lone.replace(lone.find("<node name=\"things\">"), 0, "<node name=\"nothing\"/>");
+    lone.replace(lone.find("before\" of=\"things"), 18, "before\" of=\"nothing");
+    const Cube before = cubeOf(dark, "before"), behind = cubeOf(lone, "before");
+    double worst = 0;
+    for (size_t i = 0; i < whole.values.size(); ++i)
+        worst = std::max<double>(
+            worst, std::abs(before.values[i] + through.values[i] * behind.values[i] - whole.values[i]) /
+                       whole.values[i]);
+    CHECK(worst < 1e-6);
+    // It is no reflectance.
+    CHECK_THROWS_WITH(
+        sceneFrom(R"(<scene version="1"><material name="m"><diffuse texture="pass:t"/></material>
+        <node name="n"><plane/></node><plane material="m"/>
+        <camera size="4x4" look-from="0 0 5" look-at="0 0 0"/>
+        <pass name="t" of="n" as="transmittance"/><pass name="main"/></scene>)"),
+        Catch::Contains("pass 't' is as=\"transmittance\", but a <diffuse> texture is a reflectance"));
+}
+
 TEST_CASE("a pass that repeats sees its generation before: a geometric series") {
     if (!haveDevice()) return;
     // The wall reflects 0.25 under light of radiance 1 and shows half of what it was before.

@@ -63,12 +63,15 @@ TEST_CASE(
     CHECK(hasNote(loaded.notes, "scene.xml: warning: the scene has no light: it is black"));
 }
 
-TEST_CASE("background, ambient light and an emission that is worn each count as light") {
+TEST_CASE(
+    "background, ambient light and an emission that is worn each count as light; a transmittance needs "
+    "none") {
     for (const char* content : {"<background spectrum=\"constant:1\" scale=\"1\"/>",
                                 "<light type=\"ambient\" spectrum=\"constant:1\" scale=\"1\"/>",
                                 "<material name=\"m\"><emission spectrum=\"illuminants/A\" luminance=\"1 "
                                 "cd/m2\"/></material><node><sphere "
-                                "material=\"m\"/></node>"}) {
+                                "material=\"m\"/></node>",
+                                "<pass name=\"p\" as=\"transmittance\"/>"}) {
         CAPTURE(content);
         CHECK_FALSE(hasNote(load("<scene>" + std::string(content) + "</scene>").notes, "black"));
     }
