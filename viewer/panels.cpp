@@ -14,48 +14,6 @@ namespace spectrad::view {
 
 namespace {
 
-/// Runs a change of the user's; what it cannot do is said in the window.
-template <typename Call>
-void attempt(PanelState& state, Call call) {
-    try {
-        call();
-        state.message.clear();
-    } catch (const InputError& error) {
-        state.message = error.what();
-    } catch (const UsageError& error) {
-        state.message = error.what();
-    }
-}
-
-/// A list of names with a field to type into: what is typed filters the list, Enter takes it as it stands.
-bool chooseName(const char* label, PanelState& state, const std::vector<std::string>& names,
-                std::string& chosen) {
-    bool done = false;
-    ImGui::SetNextItemWidth(-1);
-    if (!ImGui::BeginCombo(label, chosen.c_str(), ImGuiComboFlags_HeightLarge)) return false;
-    if (ImGui::IsWindowAppearing()) {
-        state.filter.clear();
-        ImGui::SetKeyboardFocusHere();
-    }
-    ImGui::SetNextItemWidth(-1);
-    if (ImGui::InputTextWithHint("##filter", "name, file, blackbody:2856 …", &state.filter,
-                                 ImGuiInputTextFlags_EnterReturnsTrue) &&
-        !state.filter.empty()) {
-        chosen = state.filter;
-        done = true;
-        ImGui::CloseCurrentPopup();
-    }
-    for (const std::string& name : names) {
-        if (!state.filter.empty() && name.find(state.filter) == std::string::npos) continue;
-        if (ImGui::Selectable(name.c_str(), name == chosen)) {
-            chosen = name;
-            done = true;
-        }
-    }
-    ImGui::EndCombo();
-    return done;
-}
-
 void drawLight(Session& session, PanelState& state, size_t number) {
     Look& look = session.look(session.edited);
     LightSetting& light = look.lights[number];
@@ -78,14 +36,15 @@ void drawLight(Session& session, PanelState& state, size_t number) {
 
 void drawLights(Session& session, PanelState& state) {
     if (!ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen)) return;
-    if (session.look(session.edited).lights.empty()) ImGui::TextDisabled("the scene has none");
+    if (session.look(session.edited).lights.empty())
+        ImGui::TextDisabled(session.scene() ? "the scene has none" : "the cube has its light already");
     for (size_t i = 0; i < session.look(session.edited).lights.size(); ++i)
         drawLight(session, state, i);
 }
 
 void drawMaterials(Session& session, PanelState& state) {
     if (!ImGui::CollapsingHeader("Materials", state.selected ? ImGuiTreeNodeFlags_DefaultOpen : 0)) return;
-    const std::vector<Material>& materials = session.scene().scene().materials;
+    const std::vector<Material>& materials = session.scene()->scene().materials;
     Look& look = session.look(session.edited);
     for (Index m = 0; m < materials.size(); ++m) {
         const Material& material = materials[m];
@@ -127,80 +86,16 @@ void drawMaterials(Session& session, PanelState& state) {
     }
 }
 
-template <size_t Count>
-bool chooseOne(const char* label, const std::array<const char*, Count>& names, int& chosen) {
-    ImGui::SetNextItemWidth(-1);
-    return ImGui::Combo(label, &chosen, names.data(), static_cast<int>(Count));
-}
-
-void drawEye(Session& session, PanelState& state) {
-    if (!ImGui::CollapsingHeader("Eye and display", ImGuiTreeNodeFlags_DefaultOpen)) return;
-    std::string observer = session.look(session.edited).eye->detector.name;
-    ImGui::TextDisabled("observer");
-    if (chooseName("##observer", state, state.observers, observer))
-        attempt(state, [&] { session.set("observer=" + observer); });
-    ImGui::TextDisabled("adaptation to the white");
-    static constexpr std::array<const char*, 4> adaptations{"cat16", "bradford", "vonkries", "none"};
-    int adaptation = static_cast<int>(session.adaptation);
-    if (chooseOne("##adapt", adaptations, adaptation))
-        attempt(state,
-                [&] { session.set(std::string("adapt=") + adaptations[static_cast<size_t>(adaptation)]); });
-    std::string white = session.white.empty() ? "the first light" : session.white;
-    if (chooseName("##white", state, state.illuminants, white))
-        attempt(state, [&] { session.set("white=" + white); });
-    if (!session.white.empty() && ImGui::SmallButton("white: the first light again")) session.white.clear();
-    ImGui::TextDisabled("display");
-    static constexpr std::array<const char*, 3> displays{"srgb", "p3", "rec2020"};
-    int display = -1;
-    for (size_t i = 0; i < displays.size(); ++i)
-        if (session.display.name == displayFor(displays[i]).name) display = static_cast<int>(i);
-    if (chooseOne("##display", displays, display))
-        attempt(state,
-                [&] { session.set(std::string("display=") + displays[static_cast<size_t>(display)]); });
-    auto ev = static_cast<float>(session.ev);
-    ImGui::SetNextItemWidth(-70 * state.scale);
-    if (ImGui::SliderFloat("##ev", &ev, -6, 6, "%+.2f EV")) session.ev = static_cast<double>(ev);
-    ImGui::SameLine();
-    if (ImGui::Button("auto", {-1, 0})) attempt(state, [&] { session.set("exposure=auto"); });
-    if (session.heldLuminance)
-        ImGui::TextDisabled("%.4g cd/m² shown as white", *session.heldLuminance * std::exp2(-session.ev));
-    ImGui::Checkbox("stripe what is out of gamut", &session.gamutWarning);
-}
-
-void drawComparison(Session& session, PanelState& state) {
-    if (!ImGui::CollapsingHeader("Compare", ImGuiTreeNodeFlags_DefaultOpen)) return;
-    static constexpr std::array<const char*, 4> modes{"look A alone", "A | B, divided",
-                                                      "colour difference of A, B", "light mixed of A and B"};
-    int mode = static_cast<int>(session.mode);
-    if (chooseOne("##mode", modes, mode)) session.mode = static_cast<Mode>(mode);
-    ImGui::TextDisabled("panels change");
-    ImGui::SameLine();
-    ImGui::RadioButton("A", &session.edited, 0);
-    ImGui::SameLine();
-    ImGui::RadioButton("B", &session.edited, 1);
-    if (session.mode == Mode::mixture) {
-        auto mix = static_cast<float>(session.mix);
-        ImGui::SetNextItemWidth(-1);
-        if (ImGui::SliderFloat("##mix", &mix, 0, 1, "A … B  %.2f")) session.mix = static_cast<double>(mix);
-    }
-    if (session.mode == Mode::difference) {
-        auto top = static_cast<float>(session.differenceTop);
-        ImGui::SetNextItemWidth(-1);
-        if (ImGui::SliderFloat("##top", &top, 0.5f, 40, "yellow from ΔE %.1f"))
-            session.differenceTop = static_cast<double>(top);
-        if (session.difference)
-            ImGui::Text("ΔE00 mean %.2f  95%% %.2f  max %.2f", session.difference->mean,
-                        session.difference->p95, session.difference->max);
-    }
-    (void)state;
-}
-
-void drawStatus(const Session& session, const PanelState& state, float width, float height) {
+void drawStatus(Session& session, const PanelState& state, float width, float height) {
     ImGui::SetNextWindowPos({8 * state.scale, height - 8 * state.scale}, ImGuiCond_Always, {0, 1});
     ImGui::Begin("##status", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoInputs);
-    std::string line = fmt::format("{} samples", state.samples);
+    std::string line = state.samples > 0
+                           ? fmt::format("{} sample{}", state.samples, state.samples == 1 ? "" : "s")
+                           : fmt::format("{} x {} pixels, {} bands, {}", session.subject().width(),
+                                         session.subject().height(), session.subject().wavelengths().size(),
+                                         session.subject().quantity());
     if (state.selected)
         line += fmt::format("   {}{}{}", state.selected->node.empty() ? "unnamed node" : state.selected->node,
                             state.selected->material.empty() ? "" : " · ", state.selected->material);
@@ -217,12 +112,41 @@ void drawStatus(const Session& session, const PanelState& state, float width, fl
 
 }  // namespace
 
+bool chooseName(const char* label, PanelState& state, const std::vector<std::string>& names,
+                std::string& chosen, const char* hint) {
+    bool done = false;
+    ImGui::SetNextItemWidth(-1);
+    if (!ImGui::BeginCombo(label, chosen.c_str(), ImGuiComboFlags_HeightLarge)) return false;
+    if (ImGui::IsWindowAppearing()) {
+        state.filter.clear();
+        ImGui::SetKeyboardFocusHere();
+    }
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::InputTextWithHint("##filter", hint, &state.filter, ImGuiInputTextFlags_EnterReturnsTrue) &&
+        !state.filter.empty()) {
+        chosen = state.filter;
+        done = true;
+        ImGui::CloseCurrentPopup();
+    }
+    for (const std::string& name : names) {
+        if (!state.filter.empty() && name.find(state.filter) == std::string::npos) continue;
+        if (ImGui::Selectable(name.c_str(), name == chosen)) {
+            chosen = name;
+            done = true;
+        }
+    }
+    ImGui::EndCombo();
+    return done;
+}
+
 void prepare(PanelState& state, const Session& session) {
     for (const LibraryEntry& entry : session.library().list()) {
         if (entry.name.starts_with("illuminants/")) state.illuminants.push_back(entry.name);
         if (entry.quantity == Quantity::reflectance) state.reflectances.push_back(entry.name);
+        if (entry.name.starts_with("displays/")) state.displays.push_back(entry.name);
         if (entry.quantity == Quantity::sensitivity) state.observers.push_back(entry.name);
     }
+    state.displays.insert(state.displays.begin(), {"srgb", "p3", "rec2020"});
     const Detector standard = standardObserver(session.library());
     state.locus.emplace(standard);
     constexpr int violet = 390, red = 700, step = 2;
@@ -234,12 +158,33 @@ void prepare(PanelState& state, const Session& session) {
     }
 }
 
+namespace {
+
+/// Over the picture: where pins stand, where A meets B.
+void drawMarks(const Session& session, const PanelState& state, float width, float height) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    if (session.mode == Mode::split && session.picture == Picture::observer) {
+        const float x = std::round(static_cast<float>(session.divider) * width);
+        list.AddLine({x, 0}, {x, height}, IM_COL32(0, 0, 0, 160), 3 * state.scale);
+        list.AddLine({x, 0}, {x, height}, IM_COL32(255, 255, 255, 200), state.scale);
+    }
+    for (size_t i = 0; i < session.pins.size(); ++i) {
+        const auto [px, py] = state.frameOf(session.pins[i].x, session.pins[i].y);
+        const ImVec2 at{static_cast<float>(px), static_cast<float>(py)};
+        list.AddCircle(at, 5 * state.scale, IM_COL32(0, 0, 0, 200), 0, 3 * state.scale);
+        list.AddCircle(at, 5 * state.scale, pinColour(i), 0, 1.5f * state.scale);
+    }
+}
+
+}  // namespace
+
 void drawPanels(Session& session, PanelState& state, float width, float height) {
     if (state.help) drawHelp(width, height);
     if (!state.visible) {
         if (!state.message.empty()) drawStatus(session, state, width, height);
         return;
     }
+    drawMarks(session, state, width, height);
     const float margin = 8 * state.scale, column = 250 * state.scale;
     constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                        ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar;
@@ -248,9 +193,10 @@ void drawPanels(Session& session, PanelState& state, float width, float height) 
     ImGui::SetNextWindowSizeConstraints({column, 0}, {column, height - 2 * margin});
     ImGui::Begin("##look", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize);
     drawLights(session, state);
-    drawMaterials(session, state);
+    if (session.scene()) drawMaterials(session, state);
+    if (session.cube()) drawBands(session);
     drawEye(session, state);
-    drawComparison(session, state);
+    if (session.picture == Picture::observer) drawComparison(session);
     ImGui::End();
     ImGui::SetNextWindowPos({margin, margin});
     ImGui::SetNextWindowSizeConstraints({column, 0}, {column, height - 60 * state.scale});

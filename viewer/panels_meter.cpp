@@ -42,13 +42,6 @@ ImU32 colourOf(double nm, float alpha) {
                                            static_cast<float>(encode(srgb, dim * rgb[2] / most)), alpha});
 }
 
-ImU32 pinColour(size_t number) {
-    static constexpr std::array<ImU32, 6> colours{IM_COL32(255, 190, 90, 255),  IM_COL32(120, 200, 255, 255),
-                                                  IM_COL32(160, 230, 130, 255), IM_COL32(240, 140, 200, 255),
-                                                  IM_COL32(200, 170, 255, 255), IM_COL32(240, 240, 120, 255)};
-    return colours[number % colours.size()];
-}
-
 struct Frame {
     ImVec2 from, to;
     double low, high, top;
@@ -141,7 +134,7 @@ void drawChromaticities(Session& session, PanelState& state, float width) {
     for (size_t i = 0; i < 3; ++i) {
         Triple unit{};
         unit[i] = 1;
-        const auto xy = chromaticity(session.display.toXyz * unit);
+        const auto xy = chromaticity(session.displayFor(session.look(session.edited)).toXyz * unit);
         corner[i] = at((*xy)[0], (*xy)[1]);
     }
     list.AddTriangle(corner[0], corner[1], corner[2], IM_COL32(255, 255, 255, 90));
@@ -177,6 +170,13 @@ void drawFigures(const Pin& pin, const PanelState& state) {
 }
 
 }  // namespace
+
+std::uint32_t pinColour(size_t number) {
+    static constexpr std::array<ImU32, 6> colours{IM_COL32(255, 190, 90, 255),  IM_COL32(120, 200, 255, 255),
+                                                  IM_COL32(160, 230, 130, 255), IM_COL32(240, 140, 200, 255),
+                                                  IM_COL32(200, 170, 255, 255), IM_COL32(240, 240, 120, 255)};
+    return colours[number % colours.size()];
+}
 
 void sampled(const Curve& curve, std::vector<double>& nm, std::vector<double>& value) {
     nm.clear();

@@ -58,6 +58,7 @@ SceneSubject::SceneSubject(const std::filesystem::path& file, const LoadOptions&
     const Vec3 forward = place.direction({0, 0, -1});
     const double distance = std::max(dot(middle - pose_.eye, forward), 0.05 * radius);
     pose_.target = pose_.eye + forward * (distance > 0 ? distance : 1);
+    home_ = pose_;
 }
 
 Look SceneSubject::firstLook() const {
@@ -243,21 +244,27 @@ void SceneSubject::resolve() {
     live_->resolve(samples());
 }
 
-void SceneSubject::show(const Look& look, const Shown& shown, std::vector<std::uint32_t>& pixels) {
-    const Table& terms = table(look);
+void SceneSubject::showColours(const std::vector<float>& colours, const Shown& shown, Codes& codes) {
     resolve();
-    live_->show(terms.colours, shownThrough(shown.toSignals, shown.display), pixels);
+    // The device has one matrix and thresholds; what bends colours is done here.
+    if (shown.tone == Tone::linear && shown.gamut == GamutMapping::clip)
+        live_->show(colours, shownThrough(shown.toSignals, shown.display), codes);
+    else
+        encodeCodes(live_->xyz(colours), shown, codes);
 }
 
-void SceneSubject::showMixed(const Look& a, const Look& b, double mix, const Shown& shown,
-                             std::vector<std::uint32_t>& pixels) {
+void SceneSubject::show(const Look& look, const Shown& shown, Codes& codes) {
+    const Table& terms = table(look);
+    showColours(terms.colours, shown, codes);
+}
+
+void SceneSubject::showMixed(const Look& a, const Look& b, double mix, const Shown& shown, Codes& codes) {
     std::vector<float> colours = table(a).colours;
     const std::vector<float>& other = table(b).colours;
     for (size_t i = 0; i < colours.size() && i < other.size(); ++i)
         colours[i] = static_cast<float>(
             std::lerp(static_cast<double>(colours[i]), static_cast<double>(other[i]), mix));
-    resolve();
-    live_->show(colours, shownThrough(shown.toSignals, shown.display), pixels);
+    showColours(colours, shown, codes);
 }
 
 ChannelImage SceneSubject::xyz(const Look& look) {

@@ -33,9 +33,10 @@ class SceneSubject : public Subject {
 
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const Plan& plan() const { return live_->plan(); }
-    [[nodiscard]] Look firstLook() const;
 
     [[nodiscard]] const Pose& pose() const { return pose_; }
+    /// Where the scene's own camera stands.
+    [[nodiscard]] const Pose& home() const { return home_; }
     void setPose(const Pose& pose);
     void setSize(int width, int height);
     /// Samples a pixel from now on; the plan's own if not said.
@@ -46,15 +47,23 @@ class SceneSubject : public Subject {
     [[nodiscard]] std::pair<Vec3, double> bounds() const;
     [[nodiscard]] std::optional<Hit> hitAt(int x, int y);
 
+    [[nodiscard]] std::filesystem::path file() const override { return scene_.file; }
+    [[nodiscard]] std::vector<std::filesystem::path> files() const override {
+        return {scene_.filesRead.begin(), scene_.filesRead.end()};
+    }
+    [[nodiscard]] Look firstLook() const override;
     [[nodiscard]] int width() const override { return view_.width; }
     [[nodiscard]] int height() const override { return view_.height; }
     [[nodiscard]] const Wavelengths& wavelengths() const override { return live_->plan().wavelengths; }
+    [[nodiscard]] std::string quantity() const override { return "radiance"; }
     [[nodiscard]] std::string unit() const override { return "W.m^-2.sr^-1.nm^-1"; }
-    void show(const Look& look, const Shown& shown, std::vector<std::uint32_t>& pixels) override;
-    void showMixed(const Look& a, const Look& b, double mix, const Shown& shown,
-                   std::vector<std::uint32_t>& pixels) override;
+    void show(const Look& look, const Shown& shown, Codes& codes) override;
+    void showMixed(const Look& a, const Look& b, double mix, const Shown& shown, Codes& codes) override;
     [[nodiscard]] ChannelImage xyz(const Look& look) override;
     [[nodiscard]] std::vector<double> spectrumAt(int x, int y, const Look& look) override;
+    [[nodiscard]] DetectorWeights weights(const Look& look) const override {
+        return weightsOn(wavelengths(), look.eye->detector);
+    }
     [[nodiscard]] White white(const Look& look) override;
     [[nodiscard]] double whiteAmount(const Look& look) override;
 
@@ -75,6 +84,7 @@ class SceneSubject : public Subject {
     /// All terms anew, materials included.
     void plan(Table& table, const Look& look, const Scene& changed);
     void resolve();
+    void showColours(const std::vector<float>& colours, const Shown& shown, Codes& codes);
     void place();
 
     const Library& library_;
@@ -86,7 +96,7 @@ class SceneSubject : public Subject {
     std::unique_ptr<LiveImage> live_;
     std::vector<Table> tables_;  ///< the last few looks'
     View view_;
-    Pose pose_;
+    Pose pose_, home_;
     int finalSamples_ = 16;
     std::optional<int> samples_;
 };

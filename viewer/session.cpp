@@ -3,172 +3,103 @@
 #include "base/text.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace spectrad::view {
 
 namespace {
 
-double numberIn(const std::string& name, const std::string& value, double least, double most) {
-    const std::optional<double> number = parseDouble(value);
-    if (!number || !(*number >= least && *number <= most))
-        throw UsageError(fmt::format("{}: '{}' is not a number from {} to {}", name, value, shortest(least),
-                                     shortest(most)));
-    return *number;
+bool sameAmount(const Emitter& a, const Emitter& b) {
+    const auto value = [](const Emitter& e) { return e.amount ? e.amount->value : e.scale; };
+    return a.amount.has_value() == b.amount.has_value() &&
+           (!a.amount || (a.amount->unit == b.amount->unit && a.amount->over == b.amount->over)) &&
+           value(a) == value(b);
 }
 
-bool flagIn(const std::string& name, const std::string& value) {
-    if (value == "true" || value == "on") return true;
-    if (value == "false" || value == "off") return false;
-    throw UsageError(name + ": '" + value + "' is neither on nor off");
+bool samePlace(const Pose& a, const Pose& b) {
+    const auto near = [](Vec3 p, Vec3 q) { return p.x == q.x && p.y == q.y && p.z == q.z; };
+    const Vec3 aheadA = normalized(a.target - a.eye), aheadB = normalized(b.target - b.eye);
+    constexpr double tolerance = 1e-9;  // the target's distance depends on the geometry
+    return near(a.eye, b.eye) && near(a.up, b.up) && length(aheadA - aheadB) < tolerance &&
+           a.pixelsPerSlopeOverHeight == b.pixelsPerSlopeOverHeight && a.orthographic == b.orthographic;
 }
 
-template <typename Value>
-Value oneOf(const std::string& name, const std::string& value,
-            const std::vector<std::pair<std::string, Value>>& choices) {
-    std::vector<std::string> names;
-    for (const auto& [text, choice] : choices) {
-        if (text == value) return choice;
-        names.push_back(text);
-    }
-    throw UsageError(fmt::format("{}: '{}' is not known (allowed: {}){}", name, value, fmt::join(names, ", "),
-                                 didYouMean(value, names)));
+const Spectrum* reflectanceOf(const Material& material) {
+    return material.diffuse && material.diffuse->reflectance ? &*material.diffuse->reflectance : nullptr;
 }
-
-constexpr double mostStops = 1000;
 
 }  // namespace
 
-Session::Session(std::unique_ptr<SceneSubject> scene, const Library& library, Notes& notes)
-    : scene_(std::move(scene)),
+Session::Session(Opener open, const Library& library, Notes& notes, bool restricted)
+    : open_(std::move(open)),
+      subject_(open_()),
       library_(library),
-      resolver_(library_, std::filesystem::path(scene_->scene().file).parent_path(), false, notes),
+      notes_(notes),
+      resolver_(library_, subject_->file().parent_path(), restricted, notes_),
       standard_(standardObserver(library_)),
-      looks_{scene_->firstLook(), scene_->firstLook()} {
+      looks_{subject_->firstLook(), subject_->firstLook()} {
     for (Look& look : looks_)
         touch(look);
+    watched_.watch(subject_->files());
+    const size_t last = subject_->wavelengths().size() - 1;
+    bands.bands = {last * 3 / 4, last / 2, last / 4};
 }
 
-void Session::setLightSpectrum(size_t light, const std::string& spectrum) {
-    Spectrum resolved = resolver_.resolve(spectrum, Role::light, {});
-    Look changed = look(edited);
-    changed.lights.at(light).emitter.spectrum = std::move(resolved);
-    touch(changed);
-    // What cannot shine, such as an amount of a spectrum without light, is found out before it is kept.
-    (void)subject().whiteAmount(changed);
-    look(edited) = std::move(changed);
-}
-
-void Session::setReflectance(Index material, const std::string& spectrum) {
-    Look changed = look(edited);
-    changed.reflectances[material] = resolver_.resolve(spectrum, Role::reflectance, {});
-    touch(changed);
-    (void)subject().whiteAmount(changed);
-    look(edited) = std::move(changed);
-}
-
-void Session::setOfLook(Look& look, const std::string& name, const std::string& attribute,
-                        const std::string& value) {
-    std::vector<std::string> names;
-    for (size_t i = 0; i < look.lights.size(); ++i) {
-        LightSetting& light = look.lights[i];
-        names.push_back(light.name);
-        if (light.name != name) continue;
-        if (attribute == "spectrum")
-            setLightSpectrum(i, value);
-        else if (attribute == "times")
-            light.times = numberIn(name + ".times", value, 0, 1e9);
-        else if (attribute == "on")
-            light.on = flagIn(name + ".on", value);
-        else
-            throw UsageError("a light has no '" + attribute + "' here (allowed: spectrum, times, on)");
-        return;
-    }
-    const std::vector<Material>& materials = scene_->scene().materials;
-    for (Index m = 0; m < materials.size(); ++m) {
-        names.push_back(materials[m].name);
-        if (materials[m].name != name || name.empty()) continue;
-        if (attribute != "reflectance")
-            throw UsageError("a material has no '" + attribute + "' here (allowed: reflectance)");
-        if (!materials[m].diffuse || !materials[m].diffuse->reflectance)
-            throw UsageError("material '" + name + "' has no <diffuse> with a reflectance");
-        setReflectance(m, value);
-        return;
-    }
-    throw UsageError("the scene has no light or material '" + name + "'" + didYouMean(name, names));
-}
-
-void Session::set(const std::string& assignment) {
-    const size_t equals = assignment.find('=');
-    if (equals == std::string::npos)
-        throw UsageError("'" + assignment + "' is not NAME.ATTRIBUTE=VALUE or SETTING=VALUE");
-    const std::string what = assignment.substr(0, equals), value = assignment.substr(equals + 1);
-    if (const size_t dot = what.rfind('.'); dot != std::string::npos) {
-        setOfLook(look(edited), what.substr(0, dot), what.substr(dot + 1), value);
-        touch(look(edited));
-        return;
-    }
-    const std::vector<std::pair<std::string, std::function<void()>>> settings{
-        {"observer",
-         [&] {
-             const Detector detector = detectorFor(value, resolver_, {});
-             look(edited).eye = std::make_shared<const Eye>(Eye{detector, towardsXyz(detector, standard_)});
-             touch(look(edited));
-         }},
-        {"adapt", [&] { adaptation = parseAdaptation(value); }},
-        {"white",
-         [&] {
-             const std::string before = std::exchange(white, value);
-             try {
-                 (void)whiteOf(look(edited));
-             } catch (...) {
-                 white = before;
-                 throw;
-             }
-         }},
-        {"exposure",
-         [&] {
-             if (value == "auto")
-                 heldLuminance.reset(), ev = 0;
-             else
-                 ev = numberIn("exposure", value, -mostStops, mostStops);
-         }},
-        {"display", [&] { display = displayFor(value); }},
-        {"mode",
-         [&] {
-             mode = oneOf<Mode>("mode", value,
-                                {{"single", Mode::single},
-                                 {"split", Mode::split},
-                                 {"difference", Mode::difference},
-                                 {"mixture", Mode::mixture}});
-         }},
-        {"divider", [&] { divider = numberIn("divider", value, 0, 1); }},
-        {"mix", [&] { mix = numberIn("mix", value, 0, 1); }},
-        {"look",
-         [&] {
-             edited = oneOf<int>("look", value, {{"A", 0}, {"B", 1}});
-         }},
-        {"gamut", [&] { gamutWarning = flagIn("gamut", value); }},
-        {"samples",
-         [&] {
-             scene_->setSamples(static_cast<int>(numberIn("samples", value, 1, 64)));
-             invalidate();
-         }},
-    };
-    std::vector<std::string> names;
-    for (const auto& [name, apply] : settings) {
-        if (name == what) {
-            apply();
-            return;
+Look Session::carried(const Look& old, const Subject& fresh) const {
+    Look made = fresh.firstLook();
+    const Look before = subject_->firstLook();
+    made.eye = old.eye;
+    for (LightSetting& light : made.lights)
+        for (size_t i = 0; i < before.lights.size(); ++i) {
+            const LightSetting &was = before.lights[i], &now = old.lights[i];
+            if (was.name != light.name) continue;
+            const bool sameSpectrum = was.emitter.spectrum.text == light.emitter.spectrum.text;
+            if (sameAmount(was.emitter, light.emitter)) {
+                light.times = now.times;
+                light.on = now.on;
+            }
+            if (sameSpectrum && now.emitter.spectrum.text != was.emitter.spectrum.text)
+                light.emitter.spectrum = resolver_.resolve(now.emitter.spectrum.text, Role::light, {});
         }
-        names.push_back(name);
+    const auto* scene = dynamic_cast<const SceneSubject*>(&fresh);
+    if (!scene || !this->scene()) return made;
+    const std::vector<Material>&then = this->scene()->scene().materials, &now = scene->scene().materials;
+    for (const auto& [number, reflectance] : old.reflectances)
+        for (Index m = 0; m < now.size(); ++m) {
+            const Spectrum *was = reflectanceOf(then[number]), *is = reflectanceOf(now[m]);
+            if (now[m].name == then[number].name && was && is && was->text == is->text)
+                made.reflectances[m] = resolver_.resolve(reflectance.text, Role::reflectance, {});
+        }
+    return made;
+}
+
+bool Session::reload() {
+    if (!watched_.changed()) return false;
+    try {
+        std::unique_ptr<Subject> fresh = open_();
+        std::array<Look, 2> looks{carried(looks_[0], *fresh), carried(looks_[1], *fresh)};
+        auto* opened = dynamic_cast<SceneSubject*>(fresh.get());
+        if (opened && scene()) {
+            if (samePlace(opened->home(), scene()->home())) opened->setPose(scene()->pose());
+            opened->setSize(scene()->width(), scene()->height());
+        }
+        for (Look& look : looks) {
+            touch(look);
+            (void)fresh->whiteAmount(look);
+        }
+        subject_ = std::move(fresh);
+        looks_ = std::move(looks);
+        problem.clear();
+        watched_.watch(subject_->files());
+        for (size_t& band : bands.bands)
+            band = std::min(band, subject_->wavelengths().size() - 1);
+        invalidate();
+    } catch (const Error& error) {
+        problem = error.what();
     }
-    throw UsageError(fmt::format("there is no setting '{}' (allowed: {}, NAME.ATTRIBUTE){}", what,
-                                 fmt::join(names, ", "), didYouMean(what, names)));
+    return true;
 }
 
 White Session::whiteOf(const Look& look) {
@@ -176,51 +107,86 @@ White Session::whiteOf(const Look& look) {
     return whiteFor(white, look.eye->detector, look.eye->matrix, resolver_, {});
 }
 
-DevelopSettings Session::settings(const Look& look) {
-    DevelopSettings made;
-    made.adaptation = adaptation;
-    made.white = whiteOf(look);
-    made.exposure.ev = ev;
-    made.display = display;
+Display Session::displayFor(const Look& look) const {
+    if (!spectralDisplay_) return display_;
+    return spectralDisplay_->seenBy(look.eye->detector.tristimulus ? look.eye->detector : standard_);
+}
+
+Rendering Session::rendering(const Look& look) {
+    Rendering made;
+    made.base.adaptation = adaptation;
+    made.base.white = whiteOf(look);
+    made.base.exposure = {ev, automatic_};
+    made.base.display = displayFor(look);
+    made.degree = degree;
+    made.tone = tone;
+    made.gamut = mapping;
     return made;
 }
 
 void Session::autoExpose() {
-    DevelopSettings made = settings(looks_[0]);
+    DevelopSettings made = rendering(looks_[0]).base;
     made.exposure.ev = 0;
     heldLuminance = displayWhiteLuminance(subject().xyz(looks_[0]), made);
 }
 
+Shown Session::shownBy(const Rendering& how) {
+    return {renderingMatrix(how, *heldLuminance * std::exp2(-ev)), how.base.display, how.tone, how.gamut};
+}
+
 Shown Session::shown(const Look& look) {
     if (!heldLuminance) autoExpose();
-    return {developMatrix(settings(look), *heldLuminance * std::exp2(-ev)), display};
+    return shownBy(rendering(look));
 }
 
 /// A mixture's white is the mixture of the whites, each as strong as its light.
-Shown Session::mixedShown() {
-    if (!heldLuminance) autoExpose();
-    DevelopSettings made = settings(looks_[0]);
+Rendering Session::mixedRendering() {
+    Rendering made = rendering(looks_[0]);
     if (white.empty()) {
         const double a = (1 - mix) * subject().whiteAmount(looks_[0]),
                      b = mix * subject().whiteAmount(looks_[1]);
         const Triple whiteA = subject().white(looks_[0]).xyz, whiteB = subject().white(looks_[1]).xyz;
         if (a + b > 0)
             for (size_t c = 0; c < 3; ++c)
-                made.white.xyz[c] = (a * whiteA[c] + b * whiteB[c]) / (a + b);
+                made.base.white.xyz[c] = (a * whiteA[c] + b * whiteB[c]) / (a + b);
     }
-    return {developMatrix(made, *heldLuminance * std::exp2(-ev)), display};
+    return made;
 }
 
-bool Session::refresh(std::vector<std::uint32_t>& left, std::vector<std::uint32_t>& right) {
-    if (!heldLuminance) autoExpose();
+void Session::drawDifference(Codes& codes) {
+    const White seenAgainst = withLuminance(whiteOf(looks_[0]), *heldLuminance);
+    difference = colourDifference(subject().xyz(looks_[0]), subject().xyz(looks_[1]), seenAgainst.xyz);
+    const std::vector<std::uint8_t> rgb = falseColours(difference->map, differenceTop);
+    codes.resize(difference->map.size());
+    for (size_t i = 0; i < codes.size(); ++i)
+        codes[i] = 0xff000000u | std::uint32_t{rgb[3 * i + 2]} << 16 | std::uint32_t{rgb[3 * i + 1]} << 8 |
+                   rgb[3 * i];
+    difference->map.clear();
+}
+
+bool Session::refresh(Codes& left, Codes& right) {
+    const bool ofBands = cube() && picture != Picture::observer;
+    if (!ofBands && !heldLuminance) autoExpose();
     const bool two = mode != Mode::single;
     const std::string state = fmt::format(
-        "{} {} {} {} {} {} {} {} {} {} {}", changes_, static_cast<int>(mode), looks_[0].version,
-        two ? looks_[1].version : 0, static_cast<int>(adaptation), white, display.name, *heldLuminance, ev,
-        mode == Mode::mixture ? mix : 0, mode == Mode::difference ? differenceTop : 0);
+        "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", changes_, static_cast<int>(mode),
+        looks_[0].version, two ? looks_[1].version : 0, static_cast<int>(adaptation), white, display,
+        heldLuminance.value_or(0), ev, mode == Mode::mixture ? mix : 0,
+        mode == Mode::difference ? differenceTop : 0, degree, static_cast<int>(tone),
+        static_cast<int>(mapping), static_cast<int>(picture), bands.bands[0], bands.bands[1], bands.bands[2]);
     if (state == shownState_) return false;
     right.clear();
     difference.reset();
+    if (ofBands) {
+        BandPicture drawn = bands;
+        if (picture == Picture::band) drawn.bands.fill(bands.bands[0]);
+        drawn.ev = ev;
+        drawn.display = displayFor(looks_[0]);
+        cube()->showBands(drawn, left);
+        bands.white = drawn.white;
+        shownState_ = state;
+        return true;
+    }
     switch (mode) {
         case Mode::single:
             subject().show(looks_[0], shown(looks_[0]), left);
@@ -230,20 +196,11 @@ bool Session::refresh(std::vector<std::uint32_t>& left, std::vector<std::uint32_
             subject().show(looks_[1], shown(looks_[1]), right);
             break;
         case Mode::mixture:
-            subject().showMixed(looks_[0], looks_[1], mix, mixedShown(), left);
+            subject().showMixed(looks_[0], looks_[1], mix, shownBy(mixedRendering()), left);
             break;
-        case Mode::difference: {
-            const White seenAgainst = withLuminance(whiteOf(looks_[0]), *heldLuminance);
-            difference =
-                colourDifference(subject().xyz(looks_[0]), subject().xyz(looks_[1]), seenAgainst.xyz);
-            const std::vector<std::uint8_t> rgb = falseColours(difference->map, differenceTop);
-            left.resize(difference->map.size());
-            for (size_t i = 0; i < left.size(); ++i)
-                left[i] = 0xff000000u | std::uint32_t{rgb[3 * i + 2]} << 16 |
-                          std::uint32_t{rgb[3 * i + 1]} << 8 | rgb[3 * i];
-            difference->map.clear();
+        case Mode::difference:
+            drawDifference(left);
             break;
-        }
     }
     shownState_ = state;
     return true;
@@ -252,7 +209,7 @@ bool Session::refresh(std::vector<std::uint32_t>& left, std::vector<std::uint32_
 Pin Session::measured(int x, int y, const Look& look) {
     Pin pin{x, y, subject().spectrumAt(x, y, look), {}};
     if (pin.spectrum.empty()) return pin;
-    const DetectorWeights weights = weightsOn(subject().wavelengths(), look.eye->detector);
+    const DetectorWeights weights = subject().weights(look);
     std::vector<double> channels;
     for (const std::vector<double>& weight : weights.weights) {
         double sum = 0;
@@ -264,16 +221,20 @@ Pin Session::measured(int x, int y, const Look& look) {
     return pin;
 }
 
-std::string Session::pinsAsCsv() const {
-    std::string text = fmt::format("# unit: {}\n", scene_->unit());
+std::string Session::pinsAsCsv() {
+    const std::string unit = subject().unit(), quantity = subject().quantity();
+    std::string text = fmt::format("# quantity: {}\n# unit: {}\n", quantity, unit.empty() ? "1" : unit);
     for (const Pin& pin : pins)
         text += fmt::format("# at {},{}: XYZ {} {} {}\n", pin.x, pin.y, rounded(pin.xyz[0], 6),
                             rounded(pin.xyz[1], 6), rounded(pin.xyz[2], 6));
+    const std::string column = quantity == "radiance"     ? "radiance_W_m2_sr_nm"
+                               : quantity == "irradiance" ? "irradiance_W_m2_nm"
+                                                          : quantity;
     text += "wavelength_nm";
     for (const Pin& pin : pins)
-        text += fmt::format(",radiance_W_m2_sr_nm at {} {}", pin.x, pin.y);
+        text += fmt::format(",{} at {} {}", column, pin.x, pin.y);
     text += '\n';
-    const std::vector<double>& nm = scene_->wavelengths().nm;
+    const std::vector<double>& nm = subject().wavelengths().nm;
     constexpr int floatDigits = 9;  // enough to read the same float back
     for (size_t band = 0; band < nm.size(); ++band) {
         text += shortest(nm[band]);

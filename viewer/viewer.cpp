@@ -15,10 +15,6 @@ namespace spectrad::view {
 
 namespace {
 
-/// Lamps that the L key steps through.
-constexpr std::array<const char*, 6> illuminants{"illuminants/D65", "illuminants/A",    "illuminants/D50",
-                                                 "illuminants/FL2", "illuminants/FL11", "illuminants/LED-B3"};
-
 void style(float scale) {
     ImGui::StyleColorsDark();
     ImGuiStyle& s = ImGui::GetStyle();
@@ -83,7 +79,9 @@ Viewer::Viewer(Face& face, Session& session)
     io.Fonts->SetTexID(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(font_)));
     left_ = canvas_.makeTexture(false);
     right_ = canvas_.makeTexture(false);
-    home_ = session_.scene().pose();
+    panels_.frameOf = [this](int x, int y) {
+        return session_.scene() ? std::array<double, 2>{x + 0.5, y + 0.5} : place_.frameOf(x, y);
+    };
     prepare(panels_, session_);
 }
 
@@ -91,28 +89,63 @@ Viewer::~Viewer() {
     ImGui::DestroyContext(imgui_);
 }
 
-template <typename Call>
-void Viewer::said(Call call) {
-    try {
-        call();
-        panels_.message.clear();
-    } catch (const InputError& error) {
-        panels_.message = error.what();
-    } catch (const UsageError& error) {
-        panels_.message = error.what();
-    }
-}
-
-std::array<int, 2> Viewer::pixelUnder(double x, double y) const {
+std::array<int, 2> Viewer::frameAt(double x, double y) const {
     return {static_cast<int>(std::floor(x * panels_.scale)), static_cast<int>(std::floor(y * panels_.scale))};
 }
 
+std::array<int, 2> Viewer::pixelUnder(double x, double y) const {
+    const auto [column, row] = frameAt(x, y);
+    if (session_.scene()) return {column, row};
+    return place_.pixelAt(column, row);
+}
+
+int Viewer::dividerColumn(int frameWidth) const {
+    return static_cast<int>(std::lround(session_.divider * frameWidth));
+}
+
 void Viewer::resizePicture(const FaceSize& size) {
-    SceneSubject& scene = session_.scene();
-    if (scene.width() == size.pixelWidth && scene.height() == size.pixelHeight) return;
-    scene.setSize(size.pixelWidth, size.pixelHeight);
-    session_.invalidate();
-    settled_ = false;
+    SceneSubject* scene = session_.scene();
+    if (!scene) {
+        place_.fit(session_.subject().width(), session_.subject().height(), size.pixelWidth,
+                   size.pixelHeight);
+        if (size.pixelWidth != frameWidth_ || size.pixelHeight != frameHeight_) placed_ = false;
+    } else if (scene->width() != size.pixelWidth || scene->height() != size.pixelHeight) {
+        scene->setSize(size.pixelWidth, size.pixelHeight);
+        session_.invalidate();
+        settled_ = false;
+    }
+    frameWidth_ = size.pixelWidth;
+    frameHeight_ = size.pixelHeight;
+}
+
+void Viewer::takeSamples() {
+    SceneSubject* scene = session_.scene();
+    const int final = scene ? scene->finalSamples() : 1;
+    const bool moving = held_[0] || held_[1] || held_[2];
+    constexpr int refine = 4;  // times as many samples in each idle frame
+    const int wanted = moving && !settled_ ? 1 : std::min(final, settled_ ? final : samples_ * refine);
+    if (scene && wanted != scene->samples()) {
+        scene->setSamples(wanted);
+        session_.invalidate();
+    }
+    samples_ = wanted;
+}
+
+void Viewer::uploadPictures(const FaceSize& size) {
+    if (session_.refresh(leftPixels_, rightPixels_)) {
+        placed_ = false;
+        panels_.meter.reset();
+    }
+    if (placed_) return;
+    const auto upload = [&](GLuint texture, const Codes& pixels) {
+        if (pixels.empty()) return;
+        if (!session_.scene()) place_.compose(pixels, composed_);
+        canvas_.upload(texture, size.pixelWidth, size.pixelHeight,
+                       session_.scene() ? pixels.data() : composed_.data());
+    };
+    upload(left_, leftPixels_);
+    upload(right_, rightPixels_);
+    placed_ = true;
 }
 
 void Viewer::frame(double seconds) {
@@ -130,6 +163,10 @@ void Viewer::frame(double seconds) {
         take(event);
         if (event.kind == Event::Kind::button || event.kind == Event::Kind::key) break;
     }
+    if (session_.reload()) {
+        panels_.message = session_.problem;
+        settled_ = false;
+    }
     const FaceSize size = face_.size();
     if (size.pixelWidth < 1 || size.pixelHeight < 1) {  // minimised: nothing to draw into
         settled_ = true;
@@ -137,51 +174,44 @@ void Viewer::frame(double seconds) {
     }
     resizePicture(size);
     fly();
-    const bool moving = held_[0] || held_[1] || held_[2];
-    const int final = session_.scene().finalSamples();
-    constexpr int refine = 4;  // times as many samples in each idle frame
-    const int wanted = moving && !settled_ ? 1 : std::min(final, settled_ ? final : samples_ * refine);
-    if (wanted != session_.scene().samples()) {
-        session_.scene().setSamples(wanted);
-        session_.invalidate();
+    takeSamples();
+    try {
+        uploadPictures(size);
+    } catch (const InputError& error) {
+        panels_.message = error.what();
+    } catch (const UsageError& error) {
+        panels_.message = error.what();
     }
-    samples_ = wanted;
-    said([&] {
-        if (session_.refresh(leftPixels_, rightPixels_)) {
-            canvas_.upload(left_, session_.subject().width(), session_.subject().height(),
-                           leftPixels_.data());
-            if (!rightPixels_.empty())
-                canvas_.upload(right_, session_.subject().width(), session_.subject().height(),
-                               rightPixels_.data());
-            panels_.meter.reset();
-        }
-    });
-    settled_ = samples_ >= final;
-    panels_.samples = samples_;
+    settled_ = samples_ >= (session_.scene() ? session_.scene()->finalSamples() : 1);
+    panels_.samples = session_.scene() ? samples_ : 0;
     draw(size);
     face_.present();
     panels_.frameSeconds = clock.seconds();
 }
 
-void Viewer::draw(const FaceSize& size) {
-    const Subject& subject = session_.subject();
-    const bool inside = !ImGui::GetIO().WantCaptureMouse;
-    const auto [x, y] = pixelUnder(pointerX_, pointerY_);
-    const int divider = static_cast<int>(std::lround(session_.divider * subject.width()));
-    const bool overRight = session_.mode == Mode::split && x >= divider;
-    if (panels_.visible && settled_ && inside && !panels_.meter)
-        said([&] {
-            Pin pin = session_.measured(x, y, session_.look(overRight ? 1 : 0));
-            if (!pin.spectrum.empty()) panels_.meter = std::move(pin);
-        });
+void Viewer::drawPictures(const FaceSize& size) {
     canvas_.begin(size.pixelWidth, size.pixelHeight);
     const bool zebra = session_.gamutWarning && session_.mode != Mode::difference;
+    const int width = size.pixelWidth, height = size.pixelHeight;
     if (session_.mode == Mode::split && !rightPixels_.empty()) {
-        canvas_.drawPicture(left_, subject.width(), subject.height(), 0, divider, zebra);
-        canvas_.drawPicture(right_, subject.width(), subject.height(), divider, subject.width(), zebra);
+        const int divider = dividerColumn(width);
+        canvas_.drawPicture(left_, width, height, 0, divider, zebra);
+        canvas_.drawPicture(right_, width, height, divider, width, zebra);
     } else {
-        canvas_.drawPicture(left_, subject.width(), subject.height(), 0, subject.width(), zebra);
+        canvas_.drawPicture(left_, width, height, 0, width, zebra);
     }
+}
+
+void Viewer::draw(const FaceSize& size) {
+    const bool inside = !ImGui::GetIO().WantCaptureMouse;
+    const auto [x, y] = pixelUnder(pointerX_, pointerY_);
+    const bool overRight =
+        session_.mode == Mode::split && frameAt(pointerX_, pointerY_)[0] >= dividerColumn(size.pixelWidth);
+    if (panels_.visible && settled_ && inside && !panels_.meter) {
+        Pin pin = session_.measured(x, y, session_.look(overRight ? 1 : 0));
+        if (!pin.spectrum.empty()) panels_.meter = std::move(pin);
+    }
+    drawPictures(size);
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(size.pixelWidth), static_cast<float>(size.pixelHeight)};
     io.DeltaTime = 1.0f / 60;
@@ -201,242 +231,6 @@ Picture8 Viewer::picture() {
     // Panels that a change has made show it in the next frame.
     frame(0);
     return canvas_.read();
-}
-
-void Viewer::take(const Event& event) {
-    ImGuiIO& io = ImGui::GetIO();
-    switch (event.kind) {
-        case Event::Kind::close:
-            closed_ = true;
-            break;
-        case Event::Kind::text:
-            io.AddInputCharacter(static_cast<unsigned>(event.code));
-            break;
-        case Event::Kind::scroll:
-            io.MouseWheel += static_cast<float>(event.y);
-            if (!io.WantCaptureMouse) dolly(event.y);
-            break;
-        case Event::Kind::key:
-            modifiers_ = event.modifiers;
-            io.KeyCtrl = (modifiers_ & control) != 0;
-            io.KeyShift = (modifiers_ & shift) != 0;
-            io.KeyAlt = (modifiers_ & alt) != 0;
-            if (event.code >= 0 && event.code < static_cast<int>(keys_.size())) {
-                io.KeysDown[event.code] = event.pressed;
-                keys_[static_cast<size_t>(event.code)] = event.pressed && !io.WantTextInput;
-            }
-            if (event.pressed && !io.WantTextInput) takeKey(event);
-            break;
-        case Event::Kind::button: {
-            if (event.code < 0 || event.code > 2) break;
-            const auto which = static_cast<size_t>(event.code);
-            io.MouseDown[which] = event.pressed;
-            const bool ours = event.pressed && !io.WantCaptureMouse;
-            if (ours) {
-                pressedX_ = pointerX_;
-                pressedY_ = pointerY_;
-                constexpr double reach = 6;  // window units within which the divider is taken hold of
-                draggingDivider_ =
-                    which == 0 && session_.mode == Mode::split &&
-                    std::abs(pointerX_ * panels_.scale - session_.divider * session_.subject().width()) <=
-                        reach * panels_.scale;
-            }
-            const bool click = held_[which] && !event.pressed && which == 0 && !draggingDivider_ &&
-                               std::hypot(pointerX_ - pressedX_, pointerY_ - pressedY_) < 3;
-            held_[which] = ours;
-            if (!event.pressed) draggingDivider_ = false;
-            if (click) {
-                const auto [x, y] = pixelUnder(pointerX_, pointerY_);
-                select(x, y);
-            }
-            break;
-        }
-        case Event::Kind::move:
-            takeMove(event);
-            break;
-    }
-}
-
-void Viewer::takeMove(const Event& event) {
-    const double dx = event.x - pointerX_, dy = event.y - pointerY_;
-    pointerX_ = event.x;
-    pointerY_ = event.y;
-    ImGui::GetIO().MousePos = {static_cast<float>(event.x) * panels_.scale,
-                               static_cast<float>(event.y) * panels_.scale};
-    panels_.meter.reset();
-    if (draggingDivider_) {
-        session_.divider =
-            std::clamp(pointerX_ * panels_.scale / std::max(1, session_.subject().width()), 0.0, 1.0);
-        return;
-    }
-    constexpr double degreesPerUnit = 0.3;
-    if (held_[0] && (modifiers_ & shift) == 0)
-        orbit(-dx * degreesPerUnit, dy * degreesPerUnit);
-    else if (held_[0] || held_[2])
-        pan(dx * panels_.scale, dy * panels_.scale);
-    else if (held_[1])
-        dolly(-0.02 * dy);
-}
-
-void Viewer::select(int x, int y) {
-    said([&] { panels_.selected = session_.scene().hitAt(x, y); });
-}
-
-void Viewer::nextIlluminant() {
-    Look& look = session_.look(session_.edited);
-    if (look.lights.empty()) throw UsageError("the scene has no light to change");
-    illuminant_ = (illuminant_ + 1) % illuminants.size();
-    session_.setLightSpectrum(0, illuminants[illuminant_]);
-}
-
-void Viewer::takeKey(const Event& event) {
-    const bool ctrl = (event.modifiers & control) != 0;
-    if (event.code >= '1' && event.code <= '9') {
-        std::optional<Pose>& bookmark = bookmarks_[static_cast<size_t>(event.code - '0')];
-        if (ctrl)
-            bookmark = session_.scene().pose();
-        else if (bookmark) {
-            session_.scene().setPose(*bookmark);
-            session_.invalidate();
-            settled_ = false;
-        }
-        return;
-    }
-    if (ctrl) return;
-    const auto [x, y] = pixelUnder(pointerX_, pointerY_);
-    switch (event.code) {
-        case tab:
-            panels_.visible = !panels_.visible;
-            break;
-        case f1:
-        case 'H':
-            panels_.help = !panels_.help;
-            break;
-        case escape:
-            panels_.help = false;
-            panels_.message.clear();
-            break;
-        case 'L':
-            said([&] { nextIlluminant(); });
-            break;
-        case 'C':
-            session_.mode = static_cast<Mode>((static_cast<int>(session_.mode) + 1) % 4);
-            break;
-        case 'X':
-            session_.edited = 1 - session_.edited;
-            break;
-        case 'G':
-            session_.gamutWarning = !session_.gamutWarning;
-            break;
-        case 'E':
-            said([&] { session_.set("exposure=auto"); });
-            break;
-        case '[':
-        case '-':
-            session_.ev -= 0.25;
-            break;
-        case ']':
-        case '=':
-            session_.ev += 0.25;
-            break;
-        case 'P':
-            said([&] {
-                Pin pin = session_.measured(x, y, session_.look(0));
-                if (!pin.spectrum.empty()) session_.pins.push_back(std::move(pin));
-            });
-            break;
-        case 'F': {
-            const auto [middle, radius] = session_.scene().bounds();
-            frameAt(panels_.selected ? panels_.selected->place : middle,
-                    panels_.selected ? radius / 4 : radius);
-            break;
-        }
-        case home:
-            session_.scene().setPose(home_);
-            session_.invalidate();
-            settled_ = false;
-            break;
-        case 'Q':
-            closed_ = true;
-            break;
-        default:
-            break;
-    }
-}
-
-void Viewer::play(const Action& action) {
-    const int x = static_cast<int>(action.x), y = static_cast<int>(action.y);
-    switch (action.kind) {
-        case Action::Kind::events:
-            queue_.insert(queue_.end(), action.events.begin(), action.events.end());
-            break;
-        case Action::Kind::set:
-            session_.set(action.text);
-            break;
-        case Action::Kind::camera:
-            if (action.text == "orbit") orbit(action.x, action.y);
-            if (action.text == "pan") pan(action.x, action.y);
-            if (action.text == "dolly") dolly(action.x);
-            if (action.text == "frame") {
-                const auto [middle, radius] = session_.scene().bounds();
-                frameAt(middle, radius);
-            }
-            if (action.text == "reset") {
-                session_.scene().setPose(home_);
-                session_.invalidate();
-                settled_ = false;
-            }
-            break;
-        case Action::Kind::resize:
-            face_.resize(x, y);
-            break;
-        case Action::Kind::screenshot: {
-            const FaceSize size = face_.size();
-            if (size.pixelWidth < 1 || size.pixelHeight < 1)
-                throw InputError("a window of no size has no screenshot");
-            writePng(action.text, picture());
-            return;
-        }
-        case Action::Kind::channels: {
-            (void)picture();
-            const ChannelImage xyz = session_.subject().xyz(session_.look(0));
-            const std::vector<std::string> names{"X", "Y", "Z"};
-            writeChannelsExr(action.text, xyz.width, xyz.height, names, floatPlanes(xyz, names),
-                             {{"observer", session_.look(0).eye->detector.name}, {"unit", "cd.m^-2 (Y)"}});
-            return;
-        }
-        case Action::Kind::pin: {
-            (void)picture();
-            Pin pin = session_.measured(x, y, session_.look(0));
-            if (pin.spectrum.empty())
-                throw InputError(fmt::format("the pin {},{} lies outside the picture", x, y));
-            session_.pins.push_back(std::move(pin));
-            return;
-        }
-        case Action::Kind::pins:
-            writeFile(action.text, session_.pinsAsCsv());
-            return;
-        case Action::Kind::wait:
-            for (int i = 0; i < x && !closed_; ++i)
-                frame(0);
-            return;
-        case Action::Kind::close:
-            closed_ = true;
-            return;
-    }
-    do
-        frame(0);
-    while (!queue_.empty() && !closed_);
-}
-
-void run(Viewer& viewer, const std::vector<Action>& actions, std::optional<int> frames) {
-    for (const Action& action : actions) {
-        if (viewer.closed()) return;
-        viewer.play(action);
-    }
-    constexpr double patience = 0.1;  // s: how often an idle window looks whether files have changed
-    for (int i = 0; (!frames || i < *frames) && !viewer.closed(); ++i)
-        viewer.frame(frames ? 0 : patience);
 }
 
 }  // namespace spectrad::view

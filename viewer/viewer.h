@@ -2,8 +2,10 @@
 // for a window and off screen.
 #pragma once
 
+#include "base/error.h"
 #include "viewer/canvas.h"
 #include "viewer/panels.h"
+#include "viewer/picture_place.h"
 #include "viewer/script.h"
 #include "viewer/session.h"
 
@@ -42,16 +44,37 @@ class Viewer {
     void orbit(double degreesRight, double degreesUp);
     void pan(double pixelsRight, double pixelsDown);
     void dolly(double steps);
-    void frameAt(Vec3 middle, double radius);
+    void frameSphere(Vec3 middle, double radius);
     void fly();
     void select(int x, int y);
     void nextIlluminant();
+    void keepOrGo(const Event& event);
+    void toHome();
+    void frameAll();
+    void moveTo(const Pose& pose);
+    void addPin(int x, int y, const Look& look);
     void resizePicture(const FaceSize& size);
+    void takeSamples();
+    void uploadPictures(const FaceSize& size);
     void draw(const FaceSize& size);
+    void drawPictures(const FaceSize& size);
+    /// Of the frame; x, y in window units.
+    [[nodiscard]] std::array<int, 2> frameAt(double x, double y) const;
+    /// Of the picture.
     [[nodiscard]] std::array<int, 2> pixelUnder(double x, double y) const;
+    [[nodiscard]] int dividerColumn(int frameWidth) const;
     /// Runs what may throw an error of the user's, and shows it in the window.
     template <typename Call>
-    void said(Call call);
+    void said(Call call) {
+        try {
+            call();
+            panels_.message.clear();
+        } catch (const InputError& error) {
+            panels_.message = error.what();
+        } catch (const UsageError& error) {
+            panels_.message = error.what();
+        }
+    }
 
     Face& face_;
     Session& session_;
@@ -59,16 +82,17 @@ class Viewer {
     Canvas canvas_;
     PanelState panels_;
     GLuint left_ = 0, right_ = 0, font_ = 0;
-    std::vector<std::uint32_t> leftPixels_, rightPixels_;
+    Codes leftPixels_, rightPixels_, composed_;
+    PicturePlace place_;       ///< of a cube's picture
+    bool placed_ = false;      ///< the frame holds the pictures as they lie now
     std::deque<Event> queue_;  ///< of the face and of scripts, in order
-    Pose home_;
     std::array<std::optional<Pose>, 10> bookmarks_;
     std::array<bool, 3> held_{};    ///< buttons over the picture
     std::array<bool, 512> keys_{};  ///< held down
     double pointerX_ = 0, pointerY_ = 0, pressedX_ = 0, pressedY_ = 0;
     unsigned modifiers_ = 0;
     bool draggingDivider_ = false, settled_ = false, closed_ = false;
-    int samples_ = 1;
+    int samples_ = 1, frameWidth_ = 0, frameHeight_ = 0;
     size_t illuminant_ = 0;
 };
 

@@ -7,8 +7,28 @@
 
 namespace spectrad::view {
 
+void Viewer::moveTo(const Pose& pose) {
+    session_.scene()->setPose(pose);
+    session_.invalidate();
+    settled_ = false;
+    samples_ = 1;
+}
+
+void Viewer::toHome() {
+    place_.reset();
+    placed_ = false;
+    if (session_.scene()) moveTo(session_.scene()->home());
+}
+
+void Viewer::frameAll() {
+    if (!session_.scene()) return toHome();
+    const auto [middle, radius] = session_.scene()->bounds();
+    frameSphere(panels_.selected ? panels_.selected->place : middle, panels_.selected ? radius / 4 : radius);
+}
+
 void Viewer::orbit(double degreesRight, double degreesUp) {
-    Pose pose = session_.scene().pose();
+    if (!session_.scene()) return;
+    Pose pose = session_.scene()->pose();
     const Vec3 arm = pose.eye - pose.target;
     const Vec3 side = normalized(cross(pose.up, arm));
     // Never over the poles of the world's up: the horizon stays level.
@@ -20,42 +40,43 @@ void Viewer::orbit(double degreesRight, double degreesUp) {
     const Vec3 lifted = Affine::rotation(length(side) > 0 ? side : Vec3{1, 0, 0}, -lift).direction(arm);
     pose.eye = pose.target + Affine::rotation(worldUp, degreesRight).direction(lifted);
     pose.up = worldUp;
-    session_.scene().setPose(pose);
-    session_.invalidate();
-    settled_ = false;
-    samples_ = 1;
+    moveTo(pose);
 }
 
 void Viewer::pan(double pixelsRight, double pixelsDown) {
-    Pose pose = session_.scene().pose();
+    if (!session_.scene()) {
+        place_.move(pixelsRight, pixelsDown);
+        placed_ = false;
+        return;
+    }
+    Pose pose = session_.scene()->pose();
     const Vec3 forward = pose.target - pose.eye;
     const Vec3 side = normalized(cross(forward, pose.up)), up = normalized(cross(side, forward));
     const double perPixel = (pose.orthographic ? 1 : length(forward)) /
-                            (pose.pixelsPerSlopeOverHeight * session_.scene().height());
+                            (pose.pixelsPerSlopeOverHeight * session_.scene()->height());
     const Vec3 by = side * (-pixelsRight * perPixel) + up * (pixelsDown * perPixel);
     pose.eye = pose.eye + by;
     pose.target = pose.target + by;
-    session_.scene().setPose(pose);
-    session_.invalidate();
-    settled_ = false;
-    samples_ = 1;
+    moveTo(pose);
 }
 
 void Viewer::dolly(double steps) {
-    Pose pose = session_.scene().pose();
     const double closer = std::pow(0.9, std::clamp(steps, -100.0, 100.0));
+    if (!session_.scene()) {
+        place_.zoom(1 / closer, pointerX_ * panels_.scale, pointerY_ * panels_.scale);
+        placed_ = false;
+        return;
+    }
+    Pose pose = session_.scene()->pose();
     if (pose.orthographic)
         pose.pixelsPerSlopeOverHeight /= closer;
     else
         pose.eye = pose.target + (pose.eye - pose.target) * closer;
-    session_.scene().setPose(pose);
-    session_.invalidate();
-    settled_ = false;
-    samples_ = 1;
+    moveTo(pose);
 }
 
-void Viewer::frameAt(Vec3 middle, double radius) {
-    Pose pose = session_.scene().pose();
+void Viewer::frameSphere(Vec3 middle, double radius) {
+    Pose pose = session_.scene()->pose();
     const Vec3 back = normalized(pose.eye - pose.target);
     pose.target = middle;
     if (pose.orthographic) {
@@ -65,13 +86,11 @@ void Viewer::frameAt(Vec3 middle, double radius) {
         // The sphere fills the height of the picture, with a little air.
         pose.eye = middle + back * (1.15 * radius * std::hypot(2 * pose.pixelsPerSlopeOverHeight, 1));
     }
-    session_.scene().setPose(pose);
-    session_.invalidate();
-    settled_ = false;
-    samples_ = 1;
+    moveTo(pose);
 }
 
 void Viewer::fly() {
+    if (!session_.scene()) return;
     double ahead = 0, aside = 0, rise = 0;
     const auto axis = [&](int plus, int minus) {
         return (keys_[static_cast<size_t>(plus)] ? 1.0 : 0.0) -
@@ -82,7 +101,7 @@ void Viewer::fly() {
     rise = axis(pageUp, pageDown);
     if (ahead == 0 && aside == 0 && rise == 0) return;
     if ((modifiers_ & control) != 0) return;
-    Pose pose = session_.scene().pose();
+    Pose pose = session_.scene()->pose();
     const Vec3 forward = pose.target - pose.eye;
     const double step = 0.02 * length(forward);
     const Vec3 by = (normalized(forward) * ahead + normalized(cross(forward, pose.up)) * aside +
@@ -90,10 +109,7 @@ void Viewer::fly() {
                     step;
     pose.eye = pose.eye + by;
     pose.target = pose.target + by;
-    session_.scene().setPose(pose);
-    session_.invalidate();
-    settled_ = false;
-    samples_ = 1;
+    moveTo(pose);
 }
 
 }  // namespace spectrad::view

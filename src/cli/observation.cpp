@@ -15,9 +15,7 @@ namespace spectrad {
 
 namespace {
 
-constexpr const char* equalEnergy = "constant:1";
 constexpr const char* daylight = "illuminants/D65";
-constexpr double diffuserY = 100;
 
 bool isPlace(const std::string& white) {
     return startsWith(white, "at:");
@@ -27,26 +25,6 @@ bool isNumbers(const std::string& white) {
     const std::vector<std::string_view> parts = split(white, ',');
     return std::all_of(parts.begin(), parts.end(),
                        [](std::string_view part) { return parseDouble(part).has_value(); });
-}
-
-/// The detector with every response multiplied by the light's spectrum.
-Detector lit(Detector detector, const Curve& light, double scale) {
-    for (Curve& response : detector.response)
-        response = Curve::combined({response, light}, [](std::span<const double> v) { return v[0] * v[1]; });
-    detector.scale *= scale;
-    return detector;
-}
-
-std::optional<Triple> parseTriple(const std::string& text) {
-    const std::vector<std::string_view> parts = split(text, ',');
-    if (parts.size() != 3) return std::nullopt;
-    Triple triple{};
-    for (size_t i = 0; i < 3; ++i) {
-        const std::optional<double> value = parseDouble(parts[i]);
-        if (!value || *value < 0) return std::nullopt;
-        triple[i] = *value;
-    }
-    return triple[1] > 0 ? std::optional(triple) : std::nullopt;
 }
 
 constexpr const char* ofImage = "image";
@@ -69,12 +47,6 @@ White placed(const std::string& wanted, const ChannelImage& image) {
     constexpr long long beyond = 1 << 30;  // outside every image, and inside int
     return whiteAt(image, static_cast<int>(std::clamp(*x, -1LL, beyond)),
                    static_cast<int>(std::clamp(*y, -1LL, beyond)));
-}
-
-bool sameChromaticity(const Triple& a, const Triple& b) {
-    constexpr double tolerance = 1e-4;
-    const auto xyA = chromaticity(a), xyB = chromaticity(b);
-    return xyA && xyB && std::hypot((*xyA)[0] - (*xyB)[0], (*xyA)[1] - (*xyB)[1]) < tolerance;
 }
 
 }  // namespace
@@ -132,10 +104,6 @@ Detector Observation::wantedDetector(const ObserverArguments& arguments) {
                                  didYouMean(name, known), fmt::join(known, ", ")));
 }
 
-static bool needsLight(const CubeInfo& info) {
-    return info.kind == CubeKind::reflectance || info.kind == CubeKind::transmittance;
-}
-
 Observation::Observation(const ObserverArguments& arguments, const CubeInfo& info, Notes& notes)
     : wanted_(arguments.white),
       info_(info),
@@ -146,19 +114,13 @@ Observation::Observation(const ObserverArguments& arguments, const CubeInfo& inf
       filmStops_(arguments.filmStops),
       detector_(wantedDetector(arguments)) {
     if (!detector_.tristimulus) toXyz_ = towardsXyz(detector_, standard_);
-    if (!needsLight(info)) {
+    if (!needsLight(info.kind)) {
         weights_ = weightsOn(info.wavelengths, detector_);
         return;
     }
     const bool named = !wanted_.empty() && wanted_ != ofImage && !isPlace(wanted_) && !isNumbers(wanted_);
     light_ = resolver_.resolve(named ? wanted_ : daylight, Role::light, {});
-    const std::array<const Curve*, 1> alone{&light_->curve()};
-    const double y = respond(detector_.tristimulus ? detector_ : standard_, alone)[1];
-    if (!(y > 0))
-        throw InputError("'" + light_->text +
-                         "' cannot light a reflectance cube: the observer sees no light of it");
-    lightScale_ = diffuserY / y;
-    weights_ = weightsOn(info.wavelengths, lit(detector_, light_->curve(), lightScale_));
+    weights_ = weightsOn(info.wavelengths, litBy(*light_, detector_, standard_));
 }
 
 ChannelImage Observation::channels(const Cube& cube) const {
@@ -182,7 +144,7 @@ std::vector<double> Observation::channels(const std::vector<double>& bands) cons
 double Observation::metered(const ChannelImage& channels) const {
     if (!film_) return 1;
     if (isPlace(wanted_)) return film_->metered(placed(wanted_, channels).xyz[1]);
-    const std::optional<Triple> stated = parseTriple(wanted_);
+    const std::optional<Triple> stated = parseXyz(wanted_);
     if (stated) return (*stated)[1];
     std::vector<double> green = channels.plane[1];
     const double light = green.empty() ? 0 : film_->metered(quantile(green, 0.99));
@@ -210,31 +172,6 @@ ChannelImage Observation::xyz(ChannelImage channels) const {
     return detector_.tristimulus ? std::move(channels) : toXyz(toXyz_, channels);
 }
 
-White Observation::statedWhite() const {
-    const auto xyz = info_.attributes.find(attribute::whiteXyz),
-               name = info_.attributes.find(attribute::white);
-    const std::optional<Triple> stated =
-        xyz == info_.attributes.end() ? std::nullopt : parseTriple(xyz->second);
-    if (!stated) {
-        White white = whiteFor(equalEnergy, detector_, toXyz_, resolver_, {});
-        white.name = "E";
-        return white;
-    }
-    White known{name == info_.attributes.end() ? xyz->second : name->second, *stated, false};
-    if (detector_.name.ends_with("cie1931-2")) return known;
-    // Another observer wants the light's spectrum. A name that is the library's says it; one of the scene's
-    // own may by chance name another light here, which its chromaticity betrays.
-    try {
-        if (sameChromaticity(whiteFor(known.name, standard_, {}, resolver_, {}).xyz, known.xyz))
-            return whiteFor(known.name, detector_, toXyz_, resolver_, {});
-    } catch (const InputError&) {
-        // Not in the library: the chromaticity must do.
-    }
-    notes_.warn("the spectrum of the white '" + known.name +
-                "' is not known here: its CIE 1931 chromaticity is used (--white)");
-    return known;
-}
-
 /// Who looks at a projection is adapted to its lamp, and takes the clearest film for white.
 White Observation::projectionWhite() const {
     const CharacteristicCurve* curves = film_->film().curves.data();
@@ -250,7 +187,8 @@ White Observation::white(const ChannelImage& image) const {
     if (film_) return projectionWhite();
     if (isPlace(wanted_)) return placed(wanted_, image);
     if (wanted_ == ofImage) return meanOf(image);
-    if (wanted_.empty() && !light_) return statedWhite();
+    if (wanted_.empty() && !light_)
+        return statedWhite(info_, detector_, toXyz_, standard_, resolver_, notes_);
     White white =
         whiteFor(light_ && !isNumbers(wanted_) ? light_->text : wanted_, detector_, toXyz_, resolver_, {});
     return light_ ? withLuminance(white, diffuserY) : white;

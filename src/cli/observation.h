@@ -7,6 +7,7 @@
 #include "colour/observe.h"
 #include "colour/white.h"
 #include "image/cube.h"
+#include "render/cube_light.h"
 #include "spectrum/library.h"
 #include "spectrum/resolver.h"
 
@@ -20,12 +21,6 @@ class App;
 }
 
 namespace spectrad {
-
-/// What render writes into a cube about the white of its scene, and the other commands read from it.
-namespace attribute {
-inline constexpr const char* white = "white";        ///< the first light's spectrum as the scene names it
-inline constexpr const char* whiteXyz = "whiteXYZ";  ///< its X,Y,Z with Y = 1, CIE 1931
-}  // namespace attribute
 
 struct ObserverArguments {
     std::string observer = "cie1931-2", white;
@@ -73,7 +68,6 @@ class Observation {
     [[nodiscard]] White whiteUnder(const std::string& name, const Curve& light) const;
 
   private:
-    [[nodiscard]] White statedWhite() const;
     [[nodiscard]] White projectionWhite() const;
     [[nodiscard]] Detector wantedDetector(const ObserverArguments& arguments);
 
@@ -87,7 +81,6 @@ class Observation {
     double filmStops_;
     Detector detector_;
     std::optional<Spectrum> light_;  ///< of a cube that needs one
-    double lightScale_ = 1;
     DetectorWeights weights_;
     XyzMatrix toXyz_;  ///< of a detector without X, Y, Z
 };

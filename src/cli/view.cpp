@@ -1,4 +1,4 @@
-// spectrad view: a scene in a window, or off screen by a script.
+// spectrad view: a scene or a cube in a window, or off screen by a script.
 #include "base/files.h"
 #include "cli/commands.h"
 #include "cli/console.h"
@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace spectrad {
@@ -22,9 +23,37 @@ struct ViewArguments {
     bool plain = false, quiet = false;
 };
 
+/// What opens the scene or the cube, now and after each change on disk.
+view::Opener openerOf(const ViewArguments& arguments, const Library& library, Notes& notes) {
+    const SceneArguments& scene = arguments.scene;
+    if (looksLikeCube(scene.file)) {
+        SceneArguments others = scene;
+        others.size.clear();  // the window's
+        if (const std::string given = recorded(others); !given.empty())
+            throw UsageError("'" + scene.file + "' is a cube, whose picture is there already:" + given +
+                             (given.starts_with(" --device") ? " has no use" : " chooses one of a scene"));
+        return [file = scene.file, &library, &notes] {
+            return std::make_unique<view::CubeSubject>(file, library, notes);
+        };
+    }
+    return [load = loadOptions(scene), settings = renderSettings(scene), file = scene.file,
+            device = Device::open(deviceNumber(scene.device)), &library, &notes] {
+        return std::make_unique<view::SceneSubject>(file, load, settings, device, library, notes);
+    };
+}
+
+/// Of the window or frame, in pixels: --size, else the picture's own; a cube's as far as it is handy.
+std::pair<int, int> sizeOf(const ViewArguments& arguments, view::Session& session, bool offscreen) {
+    view::Subject& subject = session.subject();
+    if (session.scene()) return {subject.width(), subject.height()};
+    if (!arguments.scene.size.empty()) return parseSize("--size", arguments.scene.size);
+    constexpr int largestFrame = 8192;  // pixels a side that OpenGL draws into anywhere
+    if (offscreen) return {std::min(subject.width(), largestFrame), std::min(subject.height(), largestFrame)};
+    return {std::clamp(subject.width(), 960, 1600), std::clamp(subject.height(), 640, 1000)};
+}
+
 ExitCode show(const ViewArguments& arguments) {
     Console console(arguments.quiet);
-    const RenderSettings settings = renderSettings(arguments.scene);
     const bool offscreen = !arguments.offscreen.empty();
     std::optional<int> frames;
     if (!arguments.frames.empty())
@@ -39,13 +68,11 @@ ExitCode show(const ViewArguments& arguments) {
     std::vector<view::Action> actions;
     if (!arguments.script.empty()) actions = view::parseScript(readFile(arguments.script), arguments.script);
 
-    const Device device = Device::open(deviceNumber(arguments.scene.device));
     const Library library = Library::open();
-    auto scene = std::make_unique<view::SceneSubject>(arguments.scene.file, loadOptions(arguments.scene),
-                                                      settings, device, library, console.notes());
+    view::Session session(openerOf(arguments, library, console.notes()), library, console.notes(),
+                          arguments.scene.restricted);
     console.printNotes();
-    const int width = scene->width(), height = scene->height();
-    view::Session session(std::move(scene), library, console.notes());
+    const auto [width, height] = sizeOf(arguments, session, offscreen);
     const std::unique_ptr<view::Face> face =
         offscreen ? view::openOffscreen(width, height)
                   : view::openWindow(width, height, "Spectrad: " + arguments.scene.file);
@@ -60,10 +87,12 @@ ExitCode show(const ViewArguments& arguments) {
 
 void addView(CLI::App& app, Action& action) {
     CLI::App* command =
-        app.add_subcommand("view", "Look at a scene: change its lights, materials and observer at once");
+        app.add_subcommand("view", "Look at a scene or a cube: other lights, materials, observers at once");
     auto arguments = std::make_shared<ViewArguments>();
-    command->add_option("SCENE", arguments->scene.file, "scene of Spectrad, or a model of another program")
-        ->type_name("SCENE")
+    command
+        ->add_option("SCENE", arguments->scene.file,
+                     "scene of Spectrad, a model of another program, or a spectral image (EXR, ENVI)")
+        ->type_name("SCENE|CUBE")
         ->required();
     addSceneOptions(*command, arguments->scene);
     addDeviceOption(*command, arguments->scene.device);
@@ -89,6 +118,7 @@ void addView(CLI::App& app, Action& action) {
         "shows the keys.\n\n"
         "Examples:\n"
         "  spectrad view scene.xml\n"
+        "  spectrad view cube.exr\n"
         "  spectrad view scene.xml --offscreen view.png --size 1280x720\n"
         "  spectrad view scene.xml --offscreen view.png --script actions.txt --frames 3");
     command->final_callback([&action, arguments] { action = [arguments] { return show(*arguments); }; });

@@ -58,8 +58,23 @@ Matrix3 renderingMatrix(const Rendering& rendering, double whiteLuminance) {
     return base.display.fromXyz * adapted * diagonal({scale, scale, scale});
 }
 
-RenderedPicture render(const ChannelImage& xyz, const Rendering& rendering) {
+ShownSignals shownSignals(Triple signals, const Display& display, Tone tone, GamutMapping gamut) {
     constexpr double tolerance = 1e-4;  // as develop()
+    const auto luminanceOf = [&] { return (display.toXyz * signals)[1]; };
+    if (tone == Tone::reinhard) {
+        const double factor = toneFactor(luminanceOf());
+        for (double& s : signals)
+            s *= factor;
+    }
+    const auto [least, most] = std::minmax_element(signals.begin(), signals.end());
+    ShownSignals shown{signals, luminanceOf(), *least<-tolerance, *most> 1 + tolerance};
+    const double share = gamut == GamutMapping::desaturate ? desaturation(signals, shown.luminance) : 0;
+    for (double& s : shown.signals)
+        s = std::clamp(s + share * (std::clamp(shown.luminance, 0.0, 1.0) - s), 0.0, 1.0);
+    return shown;
+}
+
+RenderedPicture render(const ChannelImage& xyz, const Rendering& rendering) {
     const DevelopSettings& base = rendering.base;
     RenderedPicture result;
     DevelopedPicture& picture = result.picture;
@@ -72,30 +87,17 @@ RenderedPicture render(const ChannelImage& xyz, const Rendering& rendering) {
     const Matrix3 toSignals = renderingMatrix(rendering, picture.whiteLuminance);
     const Encoder8 encoder(base.display), grey(srgbDisplay());
     for (size_t i = 0; i < xyz.pixels(); ++i) {
-        Triple signal = toSignals * xyz.triple(i);
-        const auto luminanceOf = [&] { return (base.display.toXyz * signal)[1]; };
-        if (rendering.tone == Tone::reinhard) {
-            const double factor = toneFactor(luminanceOf());
-            for (double& s : signal)
-                s *= factor;
-        }
-        const bool below =
-            *std::min_element(
-                signal.begin(),
-                signal.end())<-tolerance, above = *std::max_element(signal.begin(), signal.end())> 1 +
-            tolerance;
-        if (below || above) ++picture.clipped;
-        const double y = luminanceOf();
-        const std::uint8_t level = grey(0.8 * y);
-        const std::array<std::uint8_t, 3> mark{above ? std::uint8_t{255} : std::uint8_t{0}, 0,
-                                               below ? std::uint8_t{255} : std::uint8_t{0}};
-        const double share = rendering.gamut == GamutMapping::desaturate ? desaturation(signal, y) : 0;
+        const ShownSignals shown =
+            shownSignals(toSignals * xyz.triple(i), base.display, rendering.tone, rendering.gamut);
+        const bool outside = shown.below || shown.above;
+        if (outside) ++picture.clipped;
+        const std::uint8_t level = grey(0.8 * shown.luminance);
+        const std::array<std::uint8_t, 3> mark{shown.above ? std::uint8_t{255} : std::uint8_t{0}, 0,
+                                               shown.below ? std::uint8_t{255} : std::uint8_t{0}};
         for (size_t c = 0; c < 3; ++c) {
-            const double shown =
-                std::clamp(signal[c] + share * (std::clamp(y, 0.0, 1.0) - signal[c]), 0.0, 1.0);
-            result.signals.plane[c][i] = shown;
-            picture.rgb[3 * i + c] = encoder(shown);
-            result.map[3 * i + c] = below || above ? mark[c] : level;
+            result.signals.plane[c][i] = shown.signals[c];
+            picture.rgb[3 * i + c] = encoder(shown.signals[c]);
+            result.map[3 * i + c] = outside ? mark[c] : level;
         }
     }
     return result;

@@ -34,6 +34,15 @@ struct RenderedPicture {
         map;  ///< grey, but where a signal was below 0 (blue), above 1 (red), or both (magenta); 8-bit sRGB
 };
 
+/// What the display shows of linear signals: through the tone curve, then within its range.
+struct ShownSignals {
+    Triple signals;                     ///< 0…1
+    double luminance = 0;               ///< relative to the display's white, before the range
+    bool below = false, above = false;  ///< whether a signal left the range, by more than 1e-4
+};
+[[nodiscard]] ShownSignals shownSignals(Triple signals, const Display& display, Tone tone,
+                                        GamutMapping gamut);
+
 /// The matrix from absolute XYZ to linear display signals, before tone and gamut.
 [[nodiscard]] Matrix3 renderingMatrix(const Rendering& rendering, double whiteLuminance);
 [[nodiscard]] RenderedPicture render(const ChannelImage& xyz, const Rendering& rendering);

@@ -33,6 +33,10 @@ CubeInfo readCubeInfo(const std::filesystem::path& path, Notes& notes) {
     return formatOf(path) == Format::exr ? readExrInfo(path, notes) : readEnviInfo(path, notes);
 }
 
+std::unique_ptr<CubeReader> openCube(const std::filesystem::path& path, Notes& notes) {
+    return formatOf(path) == Format::exr ? openExr(path, notes) : openEnvi(path, notes);
+}
+
 bool looksLikeCube(const std::filesystem::path& path) {
     return startsLikeExr(path) || findEnviHeader(path).has_value();
 }

@@ -84,72 +84,97 @@ Decoder decoderOf(int dataType) {
     }
 }
 
-/// Reads the values line by line in the file's own order and puts each in its place.
-class Loader {
-  public:
-    Loader(const envi::Raster& raster, const fs::path& data)
-        : raster_(raster),
-          path_(data),
-          bands_(raster.bandOrder.size()),
-          decode_(decoderOf(raster.dataType)),
-          size_(static_cast<size_t>(*envi::bytesOfType(raster.dataType))),
-          swap_(raster.bigEndian != (std::endian::native == std::endian::big)) {}
+struct Opened {
+    fs::path header;
+    envi::Raster raster;
+};
 
-    Cube load(Notes& notes) {
-        cube_.info = raster_.info;
-        const size_t count = checkedValueCount(cube_.info, path_);
-        checkFileSize(count);
-        std::ifstream file(path_, std::ios::binary);
-        if (!file) throw InputError({path_.string()}, "cannot be read");
-        file.seekg(static_cast<std::streamoff>(raster_.offset));
-        cube_.values.resize(count);
-        const int height = cube_.info.height, bands = static_cast<int>(bands_);
-        const size_t width = static_cast<size_t>(cube_.info.width);
+Opened openHeader(const fs::path& path, Notes& notes) {
+    const auto header = findEnviHeader(path);
+    if (!header) throw InputError({path.string()}, "has no ENVI header beside it");
+    return {*header,
+            envi::rasterFrom(envi::Header::parse(readFile(*header, largestHeader), *header), *header, notes)};
+}
+
+/// Reads the values line by line in the file's own order and puts each in its place.
+class EnviReader : public CubeReader {
+  public:
+    EnviReader(const fs::path& path, Notes& notes)
+        : opened_(openHeader(path, notes)),
+          path_(findEnviData(path, opened_.header)),
+          bands_(raster_.bandOrder.size()),
+          decode_(decoderOf(raster_.dataType)),
+          size_(static_cast<size_t>(*envi::bytesOfType(raster_.dataType))),
+          swap_(raster_.bigEndian != (std::endian::native == std::endian::big)),
+          file_(path_, std::ios::binary) {
+        checkFileSize();
+        if (!file_) throw InputError({path_.string()}, "cannot be read");
+    }
+
+    [[nodiscard]] const CubeInfo& info() const override { return raster_.info; }
+
+    void read(int firstRow, int rows, float* values) override {
+        values_ = values;
+        firstRow_ = firstRow;
+        const size_t width = static_cast<size_t>(info().width), height = static_cast<size_t>(info().height),
+                     from = static_cast<size_t>(firstRow);
         switch (raster_.interleave) {
             case envi::Interleave::bsq:
-                for (int b = 0; b < bands; ++b)
-                    for (int y = 0; y < height; ++y)
-                        takeBandLine(file, y, static_cast<size_t>(b));
+                for (size_t b = 0; b < bands_; ++b) {
+                    seek((b * height + from) * width);
+                    for (int y = firstRow; y < firstRow + rows; ++y)
+                        takeBandLine(y, b);
+                }
                 break;
             case envi::Interleave::bil:
-                for (int y = 0; y < height; ++y)
-                    for (int b = 0; b < bands; ++b)
-                        takeBandLine(file, y, static_cast<size_t>(b));
+                seek(from * bands_ * width);
+                for (int y = firstRow; y < firstRow + rows; ++y)
+                    for (size_t b = 0; b < bands_; ++b)
+                        takeBandLine(y, b);
                 break;
             case envi::Interleave::bip:
-                for (int y = 0; y < height; ++y) {
-                    takeBytes(file, width * bands_);
+                seek(from * bands_ * width);
+                for (int y = firstRow; y < firstRow + rows; ++y) {
+                    takeBytes(width * bands_);
                     for (size_t x = 0; x < width; ++x)
                         for (size_t b = 0; b < bands_; ++b)
                             put(line_.data() + (x * bands_ + b) * size_, x, y, b);
                 }
                 break;
         }
-        if (ignoredCount_ > 0)
-            notes.warn({path_.string()},
-                       fmt::format("{} values are marked as no data; read as 0", ignoredCount_));
-        return std::move(cube_);
     }
 
+    /// How many values so far were marked as no data.
+    [[nodiscard]] std::uint64_t ignored() const { return ignoredCount_; }
+    [[nodiscard]] const fs::path& data() const { return path_; }
+
   private:
-    void checkFileSize(size_t count) const {
+    void checkFileSize() const {
         std::error_code error;
-        const std::uintmax_t size = fs::file_size(path_, error), needed = count * size_;
+        const std::uintmax_t size = fs::file_size(path_, error),
+                             needed = std::uintmax_t{bands_} * static_cast<unsigned>(info().width) *
+                                      static_cast<unsigned>(info().height) * size_;
         if (error) throw InputError({path_.string()}, "cannot be read: " + error.message());
         if (size < raster_.offset || size - raster_.offset < needed)
             throw InputError({path_.string()}, fmt::format("{} bytes, where its header calls for {} + {}",
                                                            size, raster_.offset, needed));
     }
 
-    void takeBytes(std::ifstream& file, size_t values) {
+    /// To a value of the file, by its number.
+    void seek(size_t value) {
+        file_.clear();
+        file_.seekg(static_cast<std::streamoff>(raster_.offset + value * size_));
+    }
+
+    void takeBytes(size_t values) {
         line_.resize(values * size_);
-        if (!file.read(line_.data(), static_cast<std::streamsize>(line_.size())))
+        if (!file_.read(line_.data(), static_cast<std::streamsize>(line_.size())))
             throw InputError({path_.string()}, "cannot be read to its end");
     }
 
-    void takeBandLine(std::ifstream& file, int y, size_t fileBand) {
-        const size_t width = static_cast<size_t>(cube_.info.width);
-        takeBytes(file, width);
+    void takeBandLine(int y, size_t fileBand) {
+        const size_t width = static_cast<size_t>(info().width);
+        takeBytes(width);
         for (size_t x = 0; x < width; ++x)
             put(line_.data() + x * size_, x, y, fileBand);
     }
@@ -167,33 +192,24 @@ class Loader {
         if (!(std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max())))
             throw InputError({path_.string()},
                              fmt::format("{} is {} (allowed: values within the range of float)",
-                                         placeInCube(cube_.info, static_cast<int>(x), y, band), value));
-        const size_t width = static_cast<size_t>(cube_.info.width);
-        cube_.values[(static_cast<size_t>(y) * bands_ + band) * width + x] = static_cast<float>(value);
+                                         placeInCube(info(), static_cast<int>(x), y, band), value));
+        const size_t width = static_cast<size_t>(info().width);
+        values_[(static_cast<size_t>(y - firstRow_) * bands_ + band) * width + x] = static_cast<float>(value);
     }
 
-    const envi::Raster& raster_;
+    Opened opened_;
+    const envi::Raster& raster_ = opened_.raster;
     fs::path path_;
     size_t bands_;
     Decoder decode_;
     size_t size_;  ///< bytes a value
     bool swap_;
-    Cube cube_;
+    std::ifstream file_;
+    float* values_ = nullptr;  ///< where read() puts them
+    int firstRow_ = 0;
     std::vector<char> line_;
     std::uint64_t ignoredCount_ = 0;
 };
-
-struct Opened {
-    fs::path header;
-    envi::Raster raster;
-};
-
-Opened openEnvi(const fs::path& path, Notes& notes) {
-    const auto header = findEnviHeader(path);
-    if (!header) throw InputError({path.string()}, "has no ENVI header beside it");
-    return {*header,
-            envi::rasterFrom(envi::Header::parse(readFile(*header, largestHeader), *header), *header, notes)};
-}
 
 }  // namespace
 
@@ -207,12 +223,21 @@ std::optional<fs::path> findEnviHeader(const fs::path& path) {
 }
 
 CubeInfo readEnviInfo(const fs::path& path, Notes& notes) {
-    return openEnvi(path, notes).raster.info;
+    return openHeader(path, notes).raster.info;
+}
+
+std::unique_ptr<CubeReader> openEnvi(const fs::path& path, Notes& notes) {
+    return std::make_unique<EnviReader>(path, notes);
 }
 
 Cube readEnvi(const fs::path& path, Notes& notes) {
-    const Opened opened = openEnvi(path, notes);
-    return Loader(opened.raster, findEnviData(path, opened.header)).load(notes);
+    EnviReader reader(path, notes);
+    Cube cube{reader.info(), std::vector<float>(checkedValueCount(reader.info(), reader.data()))};
+    reader.read(0, cube.info.height, cube.values.data());
+    if (reader.ignored() > 0)
+        notes.warn({reader.data().string()},
+                   fmt::format("{} values are marked as no data; read as 0", reader.ignored()));
+    return cube;
 }
 
 }  // namespace spectrad

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <optional>
 
 namespace spectrad {
 
@@ -68,32 +69,68 @@ CubeInfo readExrInfo(const std::filesystem::path& path, Notes& notes) {
     return readingExr(path, [&] { return findPart(path, notes).info; });
 }
 
+namespace {
+
+class ExrReader : public CubeReader {
+  public:
+    ExrReader(const std::filesystem::path& path, Notes& notes)
+        : path_(path), part_(findPart(path, notes)), file_(checkedSize(), exrThreads(), false) {
+        // A file without its table of chunks is incomplete: no reconstruction from what can be found.
+        if (!file_.partComplete(part_.index))
+            throw InputError({path_.string()}, "incomplete: its writing was interrupted");
+        input_.emplace(file_, part_.index);
+    }
+
+    [[nodiscard]] const CubeInfo& info() const override { return part_.info; }
+
+    void read(int firstRow, int rows, float* values) override {
+        readingExr(path_, [&] {
+            Imath::Box2i window = input_->header().dataWindow();
+            window.min.y += firstRow;
+            window.max.y = window.min.y + rows - 1;
+            const size_t width = static_cast<size_t>(info().width);
+            const size_t rowBytes = sizeof(float) * part_.bands.names.size() * width;
+            Imf::FrameBuffer frame;
+            for (size_t b = 0; b < part_.bands.names.size(); ++b)
+                frame.insert(
+                    part_.bands.names[b],  // OpenEXR turns half and uint into float
+                    Imf::Slice::Make(Imf::FLOAT, values + b * width, window, sizeof(float), rowBytes));
+            input_->setFrameBuffer(frame);
+            input_->readPixels(window.min.y, window.max.y);
+            checkFinite(info(), firstRow, rows, values, path_);
+        });
+    }
+
+  private:
+    /// No compression of EXR makes more than some 1000 bytes of one; a damaged header claims more.
+    [[nodiscard]] const char* checkedSize() const {
+        constexpr std::uintmax_t largestRatio = 4096;
+        const CubeInfo& cube = part_.info;
+        const std::uintmax_t count = std::uintmax_t{cube.wavelengths.size()} *
+                                     static_cast<unsigned>(cube.width) * static_cast<unsigned>(cube.height);
+        if (const auto size = std::filesystem::file_size(path_); count * 2 > size * largestRatio)
+            throw InputError({path_.string()},
+                             fmt::format("damaged: {} values cannot be in {} bytes", count, size));
+        return path_.c_str();
+    }
+
+    std::filesystem::path path_;
+    SpectralPart part_;
+    Imf::MultiPartInputFile file_;
+    std::optional<Imf::InputPart> input_;
+};
+
+}  // namespace
+
+std::unique_ptr<CubeReader> openExr(const std::filesystem::path& path, Notes& notes) {
+    return readingExr(path, [&] { return std::make_unique<ExrReader>(path, notes); });
+}
+
 Cube readExr(const std::filesystem::path& path, Notes& notes) {
     return readingExr(path, [&] {
-        const SpectralPart part = findPart(path, notes);
-        const size_t count = checkedValueCount(part.info, path);
-        // No compression of EXR makes more than some 1000 bytes of one; a damaged header claims more.
-        constexpr std::uintmax_t largestRatio = 4096;
-        if (const auto size = std::filesystem::file_size(path); count * 2 > size * largestRatio)
-            throw InputError({path.string()},
-                             fmt::format("damaged: {} values cannot be in {} bytes", count, size));
-
-        // A file without its table of chunks is incomplete: no reconstruction from what can be found.
-        Imf::MultiPartInputFile file(path.c_str(), exrThreads(), false);
-        if (!file.partComplete(part.index))
-            throw InputError({path.string()}, "incomplete: its writing was interrupted");
-        Cube cube{part.info, std::vector<float>(count)};
-        Imf::InputPart input(file, part.index);
-        const Imath::Box2i window = input.header().dataWindow();
-        const size_t rowBytes =
-            sizeof(float) * part.bands.names.size() * static_cast<size_t>(cube.info.width);
-        Imf::FrameBuffer frame;
-        for (size_t b = 0; b < part.bands.names.size(); ++b)
-            frame.insert(part.bands.names[b],  // OpenEXR turns half and uint into float
-                         Imf::Slice::Make(Imf::FLOAT, cube.row(0, b), window, sizeof(float), rowBytes));
-        input.setFrameBuffer(frame);
-        input.readPixels(window.min.y, window.max.y);
-        checkFinite(cube.info, 0, cube.info.height, cube.values.data(), path);
+        ExrReader reader(path, notes);
+        Cube cube{reader.info(), std::vector<float>(checkedValueCount(reader.info(), path))};
+        reader.read(0, cube.info.height, cube.values.data());
         return cube;
     });
 }

@@ -1,7 +1,5 @@
 #include "viewer/support.h"
 
-#include "support/temporary_folder.h"
-
 #include <catch2/catch.hpp>
 
 namespace spectrad::view::test {
@@ -47,12 +45,21 @@ const std::string& smallScene() {
 
 Desk::Desk(const std::string& sceneText, RenderSettings settings)
     : library(Library::open()), device(Device::open(std::nullopt)) {
-    const TemporaryFolder folder;
-    auto scene = std::make_unique<SceneSubject>(folder.write("scene.xml", sceneText), LoadOptions{}, settings,
-                                                device, library, notes);
-    const int width = scene->width(), height = scene->height();
-    session = std::make_unique<Session>(std::move(scene), library, notes);
-    face = openOffscreen(width, height);
+    open(folder.write("scene.xml", sceneText), settings);
+}
+
+Desk::Desk(const std::filesystem::path& file, RenderSettings settings)
+    : library(Library::open()), device(Device::open(std::nullopt)) {
+    open(file, settings);
+}
+
+void Desk::open(const std::filesystem::path& file, const RenderSettings& settings) {
+    const Opener opener = [this, file, settings]() -> std::unique_ptr<Subject> {
+        if (looksLikeCube(file)) return std::make_unique<CubeSubject>(file, library, notes);
+        return std::make_unique<SceneSubject>(file, LoadOptions{}, settings, device, library, notes);
+    };
+    session = std::make_unique<Session>(opener, library, notes);
+    face = openOffscreen(session->subject().width(), session->subject().height());
     viewer = std::make_unique<Viewer>(*face, *session);
 }
 

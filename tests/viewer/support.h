@@ -2,6 +2,7 @@
 #pragma once
 
 #include "spectrum/library.h"
+#include "support/temporary_folder.h"
 #include "viewer/viewer.h"
 
 #include <memory>
@@ -19,18 +20,24 @@ namespace spectrad::view::test {
 class Desk {
   public:
     explicit Desk(const std::string& sceneText, RenderSettings settings = {});
+    /// A scene or cube that is there already.
+    explicit Desk(const std::filesystem::path& file, RenderSettings settings = {});
     Desk(const Desk&) = delete;
     Desk& operator=(const Desk&) = delete;
 
     /// Plays a script.
     void play(const std::string& script);
 
+    TemporaryFolder folder;
     Notes notes;
     Library library;
     Device device;
     std::unique_ptr<Session> session;
     std::unique_ptr<Face> face;
     std::unique_ptr<Viewer> viewer;
+
+  private:
+    void open(const std::filesystem::path& file, const RenderSettings& settings);
 };
 
 }  // namespace spectrad::view::test

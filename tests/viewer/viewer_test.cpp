@@ -49,7 +49,7 @@ ChannelImage seen(const Cube& cube, const Detector& detector) {
 /// The largest ΔE00 between the viewer's float colours and those of the rendered cube.
 double worstDifference(Desk& desk, const std::string& text) {
     view::Look& look = desk.session->look(0);
-    desk.session->scene().setSamples(16);
+    desk.session->scene()->setSamples(16);
     const ChannelImage viewed = desk.session->subject().xyz(look),
                        expected = seen(rendered(text, desk), look.eye->detector);
     const White white = withLuminance(desk.session->whiteOf(look),
@@ -104,7 +104,7 @@ TEST_CASE("colours after each change are those of a scene rendered with it") {
 TEST_CASE("the spectrum of a pixel is the rendered cube's, after changes too") {
     if (!canView()) return;
     Desk desk(smallScene());
-    desk.session->scene().setSamples(16);
+    desk.session->scene()->setSamples(16);
     desk.session->set("lamp.spectrum=illuminants/FL11");
     const Cube cube = rendered(replaced(smallScene(), "illuminants/D65", "illuminants/FL11"), desk);
     double worst = 0;
@@ -129,7 +129,7 @@ TEST_CASE("a mixture of lights lies between its ends, exactly, fluorescence incl
     Desk desk(smallScene());
     desk.session->set("look=B");
     desk.session->set("lamp.spectrum=illuminants/A");
-    std::vector<std::uint32_t> a, b, mixed, unused;
+    view::Codes a, b, mixed, unused;
     desk.session->set("mode=mixture");
     desk.session->set("mix=0");
     (void)desk.session->refresh(mixed, unused);
@@ -146,17 +146,17 @@ TEST_CASE("a mixture of lights lies between its ends, exactly, fluorescence incl
 TEST_CASE("nodes and materials are found where they are clicked") {
     if (!canView()) return;
     Desk desk(smallScene());
-    desk.session->scene().setSamples(16);
-    const auto ball = desk.session->scene().hitAt(30, 32);
+    desk.session->scene()->setSamples(16);
+    const auto ball = desk.session->scene()->hitAt(30, 32);
     REQUIRE(ball);
     CHECK(ball->node == "ball");
     CHECK(ball->material == "lacquer");
     CHECK(std::abs(length(ball->place - Vec3{-1.3, 0, 0}) - 1) < 0.02);
-    CHECK_FALSE(desk.session->scene().hitAt(1, 1));
+    CHECK_FALSE(desk.session->scene()->hitAt(1, 1));
     // The look at the picture survives the look at one row.
-    std::vector<std::uint32_t> before, after, unused;
+    view::Codes before, after, unused;
     (void)desk.session->refresh(before, unused);
-    (void)desk.session->scene().hitAt(60, 32);
+    (void)desk.session->scene()->hitAt(60, 32);
     desk.session->invalidate();
     (void)desk.session->refresh(after, unused);
     CHECK(before == after);

@@ -1,0 +1,197 @@
+#include "viewer/cube_subject.h"
+
+#include "colour/develop.h"
+#include "image/envi_read.h"
+#include "render/cube_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spectrad::view {
+
+namespace {
+
+constexpr const char* daylight = "illuminants/D65";
+/// Of a strip: enough for the blocks of 32 rows that PIZ compresses together.
+constexpr size_t stripBytes = size_t{128} << 20;
+constexpr int blockRows = 32;
+
+double timesOf(const Look& look) {
+    return look.lights.empty() ? 1 : look.lights.front().on ? look.lights.front().times : 0;
+}
+
+}  // namespace
+
+CubeSubject::CubeSubject(const std::filesystem::path& file, const Library& library, Notes& notes,
+                         size_t mostHeld)
+    : file_(file),
+      notes_(notes),
+      resolver_(library, file.parent_path(), false, notes),
+      standard_(standardEye(library)),
+      reader_(openCube(file, notes)) {
+    const size_t rowBytes = sizeof(float) * wavelengths().size() * static_cast<size_t>(width());
+    const auto rowsIn = [&](size_t bytes) {
+        return static_cast<int>(std::clamp<size_t>(bytes / rowBytes, 1, static_cast<size_t>(height())));
+    };
+    stripRows_ = rowsIn(mostHeld);
+    if (stripRows_ < height()) {
+        stripRows_ = rowsIn(std::min(mostHeld, stripBytes));
+        if (stripRows_ > blockRows) stripRows_ -= stripRows_ % blockRows;
+    }
+}
+
+bool CubeSubject::lit() const {
+    return needsLight(info().kind);
+}
+
+std::vector<std::filesystem::path> CubeSubject::files() const {
+    std::vector<std::filesystem::path> all{file_};
+    if (const auto header = findEnviHeader(file_); header && *header != file_) all.push_back(*header);
+    return all;
+}
+
+Look CubeSubject::firstLook() const {
+    Look look;
+    look.eye = std::make_shared<const Eye>(standard_);
+    if (lit()) {
+        LightSetting light;
+        light.name = "light";
+        light.emitter.spectrum = resolver_.resolve(daylight, Role::light, {});
+        look.lights.push_back(std::move(light));
+    }
+    return look;
+}
+
+const float* CubeSubject::row(int y) {
+    if (y < heldFrom_ || y >= heldTo_) {
+        const int from = y - y % stripRows_, rows = std::min(stripRows_, height() - from);
+        heldFrom_ = heldTo_ = 0;
+        held_.resize(static_cast<size_t>(rows) * wavelengths().size() * static_cast<size_t>(width()));
+        reader_->read(from, rows, held_.data());
+        heldFrom_ = from;
+        heldTo_ = from + rows;
+    }
+    return held_.data() +
+           static_cast<size_t>(y - heldFrom_) * wavelengths().size() * static_cast<size_t>(width());
+}
+
+DetectorWeights CubeSubject::weights(const Look& look) const {
+    const Detector& detector = look.eye->detector;
+    DetectorWeights made =
+        weightsOn(wavelengths(),
+                  lit() ? litBy(look.lights.at(0).emitter.spectrum, detector, standard_.detector) : detector);
+    if (lit())
+        for (std::vector<double>& weight : made.weights)
+            for (double& w : weight)
+                w *= timesOf(look);
+    return made;
+}
+
+const ChannelImage& CubeSubject::projected(const Look& look) {
+    const std::string light = lit() ? look.lights.at(0).emitter.spectrum.text : std::string();
+    const auto known = std::find_if(projections_.begin(), projections_.end(), [&](const Projection& p) {
+        return p.light == light && p.eye == look.eye;
+    });
+    if (known != projections_.end()) return known->xyz;
+    Look whole = look;
+    for (LightSetting& setting : whole.lights) {
+        setting.times = 1;
+        setting.on = true;
+    }
+    const DetectorWeights detector = weights(whole);
+    ChannelImage channels(width(), height(), detector.weights.size());
+    for (int y = 0; y < height(); ++y)
+        observeRow(detector, row(y), y, channels);
+    constexpr size_t kept = 2;
+    if (projections_.size() >= kept) projections_.erase(projections_.begin());
+    projections_.push_back(
+        {light, look.eye,
+         look.eye->detector.tristimulus ? std::move(channels) : toXyz(look.eye->matrix, channels)});
+    return projections_.back().xyz;
+}
+
+ChannelImage CubeSubject::xyz(const Look& look) {
+    ChannelImage image = projected(look);
+    if (const double times = timesOf(look); times != 1)
+        for (std::vector<double>& plane : image.plane)
+            for (double& value : plane)
+                value *= times;
+    return image;
+}
+
+void CubeSubject::show(const Look& look, const Shown& shown, Codes& codes) {
+    Shown scaled = shown;
+    const double times = timesOf(look);
+    scaled.toSignals = scaled.toSignals * diagonal({times, times, times});
+    encodeCodes(projected(look), scaled, codes);
+}
+
+void CubeSubject::showMixed(const Look& a, const Look& b, double mix, const Shown& shown, Codes& codes) {
+    ChannelImage mixed = xyz(a);
+    const ChannelImage& other = projected(b);
+    const double times = timesOf(b);
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t i = 0; i < mixed.pixels(); ++i)
+            mixed.plane[c][i] = std::lerp(mixed.plane[c][i], times * other.plane[c][i], mix);
+    encodeCodes(mixed, shown, codes);
+}
+
+std::vector<double> CubeSubject::spectrumAt(int x, int y, const Look&) {
+    if (x < 0 || y < 0 || x >= width() || y >= height()) return {};
+    const float* bands = row(y) + x;
+    std::vector<double> spectrum;
+    for (size_t band = 0; band < wavelengths().size(); ++band)
+        spectrum.push_back(static_cast<double>(bands[band * static_cast<size_t>(width())]));
+    return spectrum;
+}
+
+White CubeSubject::white(const Look& look) {
+    const Detector& detector = look.eye->detector;
+    if (!lit()) return statedWhite(info(), detector, look.eye->matrix, standard_.detector, resolver_, notes_);
+    const Spectrum& light = look.lights.at(0).emitter.spectrum;
+    return withLuminance(whiteOf(light.text, light.curve(), detector, look.eye->matrix, {}), diffuserY);
+}
+
+double CubeSubject::whiteAmount(const Look& look) {
+    if (lit()) (void)litBy(look.lights.at(0).emitter.spectrum, look.eye->detector, standard_.detector);
+    return timesOf(look);
+}
+
+const CubeSubject::Plane& CubeSubject::plane(size_t band) {
+    const auto known =
+        std::find_if(planes_.begin(), planes_.end(), [&](const Plane& p) { return p.band == band; });
+    if (known != planes_.end()) return *known;
+    Plane made{band, {}, 0};
+    const size_t across = static_cast<size_t>(width());
+    made.values.reserve(across * static_cast<size_t>(height()));
+    for (int y = 0; y < height(); ++y) {
+        const float* values = row(y) + band * across;
+        made.values.insert(made.values.end(), values, values + across);
+    }
+    std::vector<double> sorted(made.values.begin(), made.values.end());
+    constexpr double share = 0.99;  // as exposure's
+    made.top = quantile(sorted, share);
+    if (!(made.top > 0)) made.top = *std::max_element(sorted.begin(), sorted.end());
+    constexpr size_t kept = 3;
+    if (planes_.size() >= kept) planes_.erase(planes_.begin());
+    planes_.push_back(std::move(made));
+    return planes_.back();
+}
+
+void CubeSubject::showBands(BandPicture& picture, Codes& codes) {
+    const Encoder8 encoder(picture.display);
+    codes.assign(static_cast<size_t>(width()) * static_cast<size_t>(height()), 0xff000000u);
+    for (size_t c = 0; c < 3; ++c) {
+        const Plane& source = plane(std::min(picture.bands[c], wavelengths().size() - 1));
+        const double top = lit() || !(source.top > 0) ? 1 : source.top;
+        picture.white[c] = top * std::exp2(-picture.ev);
+        for (size_t i = 0; i < codes.size(); ++i) {
+            const double signal = static_cast<double>(source.values[i]) / picture.white[c];
+            codes[i] |= std::uint32_t{encoder(signal)} << (8 * c);
+            constexpr double tolerance = 1e-4;  // as for colours
+            if (signal < -tolerance || signal > 1 + tolerance) codes[i] &= 0xfeffffffu;
+        }
+    }
+}
+
+}  // namespace spectrad::view

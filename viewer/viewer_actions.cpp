@@ -1,0 +1,74 @@
+// Scripts: each action played to its end.
+#include "base/files.h"
+#include "viewer/viewer.h"
+
+#include <fmt/format.h>
+
+namespace spectrad::view {
+
+void Viewer::play(const Action& action) {
+    const int x = static_cast<int>(action.x), y = static_cast<int>(action.y);
+    switch (action.kind) {
+        case Action::Kind::events:
+            queue_.insert(queue_.end(), action.events.begin(), action.events.end());
+            break;
+        case Action::Kind::set:
+            session_.set(action.text);
+            break;
+        case Action::Kind::camera:
+            if (action.text == "orbit") orbit(action.x, action.y);
+            if (action.text == "pan") pan(action.x, action.y);
+            if (action.text == "dolly") dolly(action.x);
+            if (action.text == "frame") frameAll();
+            if (action.text == "reset") toHome();
+            break;
+        case Action::Kind::resize:
+            face_.resize(x, y);
+            break;
+        case Action::Kind::screenshot: {
+            const FaceSize size = face_.size();
+            if (size.pixelWidth < 1 || size.pixelHeight < 1)
+                throw InputError("a window of no size has no screenshot");
+            writePng(action.text, picture());
+            return;
+        }
+        case Action::Kind::channels: {
+            (void)picture();
+            const ChannelImage xyz = session_.subject().xyz(session_.look(0));
+            const std::vector<std::string> names{"X", "Y", "Z"};
+            writeChannelsExr(action.text, xyz.width, xyz.height, names, floatPlanes(xyz, names),
+                             {{"observer", session_.look(0).eye->detector.name}, {"unit", "cd.m^-2 (Y)"}});
+            return;
+        }
+        case Action::Kind::pin: {
+            (void)picture();
+            addPin(x, y, session_.look(0));
+            return;
+        }
+        case Action::Kind::pins:
+            writeFile(action.text, session_.pinsAsCsv());
+            return;
+        case Action::Kind::wait:
+            for (int i = 0; i < x && !closed_; ++i)
+                frame(0);
+            return;
+        case Action::Kind::close:
+            closed_ = true;
+            return;
+    }
+    do
+        frame(0);
+    while (!queue_.empty() && !closed_);
+}
+
+void run(Viewer& viewer, const std::vector<Action>& actions, std::optional<int> frames) {
+    for (const Action& action : actions) {
+        if (viewer.closed()) return;
+        viewer.play(action);
+    }
+    constexpr double patience = 0.1;  // s: how often an idle window looks whether files have changed
+    for (int i = 0; (!frames || i < *frames) && !viewer.closed(); ++i)
+        viewer.frame(frames ? 0 : patience);
+}
+
+}  // namespace spectrad::view
