@@ -42,7 +42,7 @@ Session::Session(Opener open, const Library& library, Notes& notes, bool restric
       looks_{subject_->firstLook(), subject_->firstLook()} {
     for (Look& look : looks_)
         touch(look);
-    watched_.watch(subject_->files());
+    watched_.watch(files());
     const size_t last = subject_->wavelengths().size() - 1;
     bands.bands = {last * 3 / 4, last / 2, last / 4};
 }
@@ -75,6 +75,17 @@ Look Session::carried(const Look& old, const Subject& fresh) const {
     return made;
 }
 
+std::vector<std::filesystem::path> Session::files() const {
+    std::vector<std::filesystem::path> all = subject_->files();
+    for (const Look& look : looks_) {
+        for (const LightSetting& light : look.lights)
+            all.insert(all.end(), light.emitter.spectrum.files.begin(), light.emitter.spectrum.files.end());
+        for (const auto& [material, reflectance] : look.reflectances)
+            all.insert(all.end(), reflectance.files.begin(), reflectance.files.end());
+    }
+    return all;
+}
+
 bool Session::reload() {
     if (!watched_.changed()) return false;
     try {
@@ -92,7 +103,8 @@ bool Session::reload() {
         subject_ = std::move(fresh);
         looks_ = std::move(looks);
         problem.clear();
-        watched_.watch(subject_->files());
+        watched_.watch(files());
+        if (!pins.empty() && pins.front().spectrum.size() != subject_->wavelengths().size()) pins.clear();
         for (size_t& band : bands.bands)
             band = std::min(band, subject_->wavelengths().size() - 1);
         invalidate();

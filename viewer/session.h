@@ -111,6 +111,8 @@ class Session {
     [[nodiscard]] Shown shownBy(const Rendering& how);
     [[nodiscard]] Rendering mixedRendering();
     void drawDifference(Codes& codes);
+    /// All that the picture was made of, spectra chosen here included.
+    [[nodiscard]] std::vector<std::filesystem::path> files() const;
     /// What of a look outlives the opening of other files.
     [[nodiscard]] Look carried(const Look& old, const Subject& fresh) const;
 

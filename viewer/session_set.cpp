@@ -52,6 +52,7 @@ void Session::setLightSpectrum(size_t light, const std::string& spectrum) {
     // What cannot shine, such as an amount of a spectrum without light, is found out before it is kept.
     (void)subject().whiteAmount(changed);
     look(edited) = std::move(changed);
+    watched_.watch(files());
 }
 
 void Session::setReflectance(Index material, const std::string& spectrum) {
@@ -60,6 +61,7 @@ void Session::setReflectance(Index material, const std::string& spectrum) {
     touch(changed);
     (void)subject().whiteAmount(changed);
     look(edited) = std::move(changed);
+    watched_.watch(files());
 }
 
 void Session::setOfLook(Look& look, const std::string& name, const std::string& attribute,

@@ -1,6 +1,7 @@
 #include "viewer/watched_files.h"
 
 #include <system_error>
+#include <utility>
 
 namespace spectrad::view {
 
@@ -13,18 +14,20 @@ WatchedFiles::Stamp WatchedFiles::stampOf(const std::filesystem::path& file) {
 }
 
 void WatchedFiles::watch(const std::vector<std::filesystem::path>& files) {
-    files_ = files;
-    stamps_.clear();
-    for (const std::filesystem::path& file : files_)
-        stamps_.push_back(stampOf(file));
+    std::map<std::filesystem::path, Stamp> wanted;
+    for (const std::filesystem::path& file : files) {
+        const auto known = files_.find(file);
+        wanted.emplace(file, known == files_.end() ? stampOf(file) : known->second);
+    }
+    files_ = std::move(wanted);
 }
 
 bool WatchedFiles::changed() {
     bool any = false;
-    for (size_t i = 0; i < files_.size(); ++i) {
-        const Stamp now = stampOf(files_[i]);
-        any = any || !(now == stamps_[i]);
-        stamps_[i] = now;
+    for (auto& [file, stamp] : files_) {
+        const Stamp now = stampOf(file);
+        any = any || !(now == stamp);
+        stamp = now;
     }
     return any;
 }

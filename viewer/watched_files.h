@@ -3,15 +3,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <vector>
 
 namespace spectrad::view {
 
 class WatchedFiles {
   public:
-    /// As they are now.
+    /// From now on these; of one that was watched before, no change is missed.
     void watch(const std::vector<std::filesystem::path>& files);
-    /// Whether one has changed since watch() or since the last call that said so.
+    /// Whether one has changed since it was first watched, or since the last call.
     [[nodiscard]] bool changed();
 
   private:
@@ -22,8 +23,7 @@ class WatchedFiles {
     };
     [[nodiscard]] static Stamp stampOf(const std::filesystem::path& file);
 
-    std::vector<std::filesystem::path> files_;
-    std::vector<Stamp> stamps_;
+    std::map<std::filesystem::path, Stamp> files_;
 };
 
 }  // namespace spectrad::view
