@@ -170,7 +170,8 @@ static void facets(sd_lobe lobe, global const sd_piece* tables, surface s, v3 to
         shadow_view = cos_light * sqrt(fma(s.cos_view * s.cos_view, (vfloat)(1.0f - a2), (vfloat)a2));
         shadow_light = s.cos_view * sqrt(fma(cos_light * cos_light, (vfloat)(1.0f - a2), (vfloat)a2));
     }
-    const vfloat shape = (a2 * INV_PI) / (width * width) * 0.5f / (shadow_view + shadow_light) * irradiance;
+    /* Not width squared: of a surface of roughness 1e-8 that is 1e-64. */
+    const vfloat shape = (a2 / width) * (INV_PI / width) * 0.5f / (shadow_view + shadow_light) * irradiance;
     const vfloat multiple = at_view.first * first_at(lobe, tables, s, to_light, cos_light) * lobe.multiple * irradiance;
     const table_cell facing = cell_of(cos_diff);
     global const sd_piece* fresnel = tables + lobe.table + (1 + lobe.functions) * COEFFICIENTS(lobe) * SD_CELLS;

@@ -53,7 +53,7 @@ static inline void orient(surface* s, v3 along) {
 #endif
 
 /* Grazing views are held a little off the horizon, where microfacet terms divide by the cosine. */
-#define MIN_COS_VIEW 1e-5f
+#define MIN_COS_VIEW 1e-6f
 
 /* x, y: the samples, SD_SUBPIXEL-ths of a pixel from the image's centre. Barycentrics come from the unclipped corners relative to
  * each sample's ray (the 2-D homogeneous form), so that no clipping or snapping enters; samples that snapping has put a little

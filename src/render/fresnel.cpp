@@ -5,25 +5,31 @@
 
 namespace spectrad {
 
+// Both in forms without differences of nearly equal numbers: indices near 1 keep all digits of their
+// reflectance.
 double fresnelDielectric(double c, double n) {
-    const double square = n * n - 1 + c * c;
+    if (n == 1) return 0;  // there is no surface, not even edge-on, where the limit of n > 1 is 1
+    const double square = (n - 1) * (n + 1) + c * c;
     if (square < 0) return 1;
-    const double g = std::sqrt(square);
-    if (g + c == 0) return 1;  // n = 1 seen exactly edge-on: the limit of n > 1
-    const double a = (g - c) / (g + c), b = (c * (g + c) - 1) / (c * (g - c) + 1);
-    return 0.5 * a * a * (1 + b * b);
+    const double g = std::sqrt(square), sum = g + c;
+    const double a = (n - 1) * (n + 1) / (sum * sum);  // (g − c) / (g + c)
+    const double b = (c * sum - 1) / (c * (g - c) + 1);
+    return std::min(0.5 * a * a * (1 + b * b), 1.0);
 }
 
 double fresnelConductor(double c, double n, double k) {
-    // Born & Wolf, 13.4: with (a + i b)² = (n + i k)² − sin²θ.
-    const double c2 = c * c, s2 = 1 - c2;
-    const double t0 = (n - k) * (n + k) - s2, length = std::hypot(t0, 2 * n * k);
-    const double a = std::sqrt(std::max(0.0, 0.5 * (length + t0)));
-    const double t1 = length + c2, t2 = 2 * a * c;
-    if (t1 + t2 == 0) return 1;  // n = 1, k = 0 seen exactly edge-on
-    const double rs = (t1 - t2) / (t1 + t2);
-    const double t3 = c2 * length + s2 * s2, t4 = t2 * s2;
-    const double rp = t3 + t4 > 0 ? rs * (t3 - t4) / (t3 + t4) : rs;
+    if (n == 1 && k == 0) return 0;
+    // Born & Wolf, 13.4: (a + i b)² = (n + i k)² − sin²θ; the larger of a and b by a sum, the other from a b
+    // = n k.
+    const double c2 = c * c, s2 = 1 - c2, excess = (n - 1) * (n + 1) - k * k;  // of n² − k² over 1
+    const double t0 = excess + c2, length = std::hypot(t0, 2 * n * k);
+    const double larger = std::sqrt(0.5 * (length + std::abs(t0))), smaller = larger > 0 ? n * k / larger : 0;
+    const double a = t0 < 0 ? smaller : larger, b = t0 < 0 ? larger : smaller, b2 = b * b;
+    if (a + c == 0) return 1;                                   // edge-on, total reflection
+    const double less = (b2 + excess) / (a + c), more = a + c;  // a − c, a + c
+    const double rs = (less * less + b2) / (more * more + b2);
+    const double down = a * c - s2, up = a * c + s2, side = b2 * c2;
+    const double rp = up * up + side > 0 ? rs * (down * down + side) / (up * up + side) : rs;
     return std::clamp(0.5 * (rs + rp), 0.0, 1.0);
 }
 

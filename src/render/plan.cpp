@@ -335,6 +335,7 @@ Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& l
         const Material worn = substituted(*material, settings.substitute);
         builder.add(worn, worn.emission ? absoluteFactor(*worn.emission, observer) : 0);
     }
+    builder.noteLost();
     if (settings.geometry) addGeometry(plan.world, flat, plan.view, number);
 
     plan.features = featuresOf(materials, plan.world, background || backdrop);

@@ -38,15 +38,15 @@ void checkRange(const Wavelengths& grid, const std::vector<LightGroup>& groups, 
         if (group.factor == 0) continue;
         const double share = shareOutside(group.spectrum, observer, from, to);
         if (!(share > tolerated)) continue;
-        double low = from, high = to;
         constexpr double step = 5, shortest = 360, longest = 830;  // nm, of the observer
+        double low = std::min(from, longest), high = std::max(to, shortest);
         while (low > shortest && shareOutside(group.spectrum, observer, low, longest) > tolerated / 2)
             low -= step;
         while (high < longest && shareOutside(group.spectrum, observer, low, high) > tolerated)
             high += step;
         notes.warn(fmt::format(
             "'{}' sends {} % of an observer's response outside {}…{} nm; {}…{} nm would do", group.text,
-            rounded(100 * share, 2), spectrad::shortest(from), spectrad::shortest(to),
+            rounded(100 * share, share < 0.995 ? 2 : 3), spectrad::shortest(from), spectrad::shortest(to),
             spectrad::shortest(std::max(low, shortest)), spectrad::shortest(std::min(high, longest))));
     }
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace spectrad {
 
@@ -35,11 +36,16 @@ float toFloat(double value) {
     return f;
 }
 
-/// The layout's convention for previews: linear Rec.709 of ∫ L x̄ dλ and so on, without 683 lm/W.
+/// The layout's convention for previews: linear Rec.709 of ∫ L x̄ dλ and so on, without 683 lm/W. Summed over
+/// wavelengths a radiance within float may go beyond: a preview is then as bright as it can be.
 std::array<float, 3> previewFrom(const Triple& xyz) {
     static const Display rec709 = srgbDisplay();
     const Triple rgb = rec709.fromXyz * xyz;
-    return {toFloat(rgb[0]), toFloat(rgb[1]), toFloat(rgb[2])};
+    const auto held = [](double value) {
+        constexpr double most = std::numeric_limits<float>::max();
+        return static_cast<float>(std::clamp(value, -most, most));
+    };
+    return {held(rgb[0]), held(rgb[1]), held(rgb[2])};
 }
 
 Triple added(Triple xyz, const Eye& eye, std::span<const Curve* const> product, double factor) {
@@ -104,11 +110,24 @@ void TermBuilder::addTerm(const std::vector<Summand>& sum, bool clip) {
         for (double& value : bands)
             value = std::max(value, 0.0);
     }
+    // What is nothing beside the term's own peak (a Gaussian's tail) is not missed.
+    constexpr double negligible = 1e-12;
+    double peak = 0;
     for (double value : bands)
+        peak = std::max(peak, std::abs(value));
+    for (double value : bands) {
         terms_.spectra.push_back(toFloat(value));
+        if (terms_.spectra.back() == 0 && std::abs(value) > negligible * peak) ++lost_;
+    }
     const std::array<float, 3> preview = previewFrom(xyz);
     terms_.preview.insert(terms_.preview.end(), preview.begin(), preview.end());
     terms_.recipes.push_back(recipeOf(sum, groups_, only_));
+}
+
+void TermBuilder::noteLost() const {
+    if (lost_ > 0)
+        notes_.warn(fmt::format(
+            "{} band values of light times surface below the range of float (1.4e-45) became zero", lost_));
 }
 
 void TermBuilder::addGroupTerms(const Curve& response, double factor) {

@@ -64,6 +64,9 @@ class TermBuilder {
     /// and for what is not there yet.
     std::uint32_t add(const Material& material, double emissionFactor);
 
+    /// Warns of band values that float cannot hold, unless they are nothing beside their term's largest.
+    void noteLost() const;
+
     [[nodiscard]] const std::vector<LightGroup>& groups() const { return groups_; }
 
   private:
@@ -120,6 +123,7 @@ class TermBuilder {
     World& world_;
     TermTable& terms_;
     Notes& notes_;
+    size_t lost_ = 0;
     std::map<std::string, Image> images_;  ///< by what they are and how they lie
 };
 

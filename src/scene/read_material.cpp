@@ -57,16 +57,23 @@ Spectrum readIndex(Reading& reading, const Element& element, size_t curves) {
     return index;
 }
 
-/// "0.3", or "0.3 0.1": along and across the texture coordinates' u.
+/// "0.3", or "0.3 0.1": along and across the texture coordinates' u. The square of GGX's alpha, the fourth
+/// power of a roughness, has to be a float.
 Roughness readRoughness(const Element& element) {
-    constexpr double mostRatio = 5;
+    constexpr double mostRatio = 5, leastRoughness = 1e-9;
+    const auto check = [&](double value) {
+        if (value > 0 && value < leastRoughness)
+            element.fail("roughness", fmt::format("{} is too smooth (allowed: 0, or {} … 1)", shortest(value),
+                                                  shortest(leastRoughness)));
+        return value;
+    };
     if (!element.has("roughness")) return {};
     if (element.text("roughness").find_first_of(" \t\n") == std::string::npos)
-        return element.number("roughness", 0, zeroToOne);
+        return check(element.number("roughness", 0, zeroToOne));
     const std::vector<double> values = element.numbers("roughness", {2});
     for (double value : values)
         if (value < 0 || value > 1) element.fail("roughness", "expected numbers from 0 to 1");
-    const Roughness roughness{values.front(), values.back()};
+    const Roughness roughness{check(values.front()), check(values.back())};
     const auto [low, high] = std::minmax(roughness.u, roughness.v);
     if (high > mostRatio * low * (1 + 1e-9))
         element.fail("roughness",

@@ -80,7 +80,7 @@ double quantile(std::vector<double> values, double share) {
 
 // Factors lose digits where cosines vanish: at silhouettes, and near the horizon of a light (rough lobes
 // most: a third of the random world).
-TEST_CASE("light factors in float: half within 1 ulp of double precision, 97 % within 48, all within 6e-4") {
+TEST_CASE("light factors in float: half within 1 ulp of double precision, 97 % within 48, all within 4e-3") {
     const Device device = Device::open(std::nullopt);
     Errors errors;
     for (unsigned seed = 1; seed <= 4; ++seed)
@@ -88,7 +88,7 @@ TEST_CASE("light factors in float: half within 1 ulp of double precision, 97 % w
     REQUIRE(errors.factors.size() > 10000);
     CHECK(quantile(errors.factors, 0.5) < 1);
     CHECK(quantile(errors.factors, 0.97) < 48);
-    CHECK(quantile(errors.factors, 1) < 6e-4 * 0x1p23);
+    CHECK(quantile(errors.factors, 1) < 4e-3 * 0x1p23);
 }
 
 TEST_CASE("bands in float stay within 4 ulps of the sum of factors times spectra") {

@@ -271,7 +271,7 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
                         s.cosView *
                         std::sqrt(std::fma(l3.x * l3.x, u2, std::fma(l3.y * l3.y, v2, cosLight * cosLight)));
                 }
-                const Real shape = (a2 * inversePi<Real>) / (width * width) * Real(0.5) /
+                const Real shape = (a2 / width) * (inversePi<Real> / width) * Real(0.5) /
                                    (shadowView + shadowLight) * irradiance;
                 const Real multiple =
                     first * firstAt(lobe, table, s, toLight, cosLight) * lobe.multiple * irradiance;

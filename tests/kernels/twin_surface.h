@@ -108,7 +108,7 @@ SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd
     s.side = frame.baked ? Real(1.0) : std::copysign(Real(1.0), seen) * std::copysign(Real(1.0), outward);
     s.normal = scaled(normal, s.side);
     s.horizon = s.normal;
-    s.cosView = std::fmax(dot(s.normal, s.view), Real(1e-5f));
+    s.cosView = std::fmax(dot(s.normal, s.view), Real(1e-6f));
     if (!world.uv.empty()) {
         const auto t = corners(world.uv, 2);
         s.u = mixed(b0, t[0][0], b1, t[1][0], b2, t[2][0]);
