@@ -32,7 +32,7 @@ test-sanitized: packages debug-configured
 	cmake --build build-debug --target $(UNITS:%=test_%)
 	ctest --test-dir build-debug --output-on-failure --parallel $(CORES) -R '^($(subst $() $(),|,$(UNITS)))$$'
 
-##figures         the paper's figures 2 to 4 and a table of what was measured in them, in out/figures/
+##figures         the paper's figures 2 to 5 and a table of what was measured in them, in out/figures/
 .PHONY: figures
 figures: $(PROGRAM)
 	python3 scenes/paper/figures.py $(PROGRAM) out/figures

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The paper's figures 2, 3 and 4: figures.py [SPECTRAD] [OUT]   (make figures)
+"""The paper's figures 2 to 5: figures.py [SPECTRAD] [OUT]   (make figures)
 
 Renders the scenes beside this script under every lamp and for every detector, puts the panels of a figure into one picture,
 OUT/figureN.png, and measures: OUT/differences.csv and OUT/differences.md. Halves are measured left and right of the seam in the
@@ -192,6 +192,8 @@ def main():
         rows.append((4, label, "inked rabbit", "emission / that under the black light, equal irradiance 300 to 780 nm",
                      glow[label] / glow["black light"]))
     plate(program.out / "figure4.png", panels)
+
+    program.picture(program.render("figure5.xml", "figure5", (), ""))
 
     with open(program.out / "differences.csv", "w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)

@@ -27,7 +27,7 @@ double CharacteristicCurve::density(double exposure) const {
 }
 
 FilmProjection::FilmProjection(Film film, const Detector& eye) : film_(std::move(film)) {
-    const std::array<const Curve*, 1> balance{&film_.balance}, projector{&film_.projector};
+    const std::array<const Curve*, 1> balance{&film_.balance};
     const double luminance = respondXyz(eye, balance)[1];
     const std::vector<double> channels = respond(film_.layers, balance);
     for (size_t i = 0; i < 3; ++i) {
@@ -36,10 +36,28 @@ FilmProjection::FilmProjection(Film film, const Detector& eye) : film_(std::move
             throw InputError("the film '" + film_.name +
                              "' is not exposed by the light that it is balanced for");
     }
+    light(eye);
+    balanceDyes();
+}
+
+void FilmProjection::project(const Spectrum* lamp, const Detector* eye, const Detector& standard) {
+    if (lamp) {
+        film_.projector = lamp->curve();
+        film_.projectorName = lamp->text;
+    }
+    light(eye ? *eye : standard);
+}
+
+void FilmProjection::light(const Detector& eye) {
+    if (!eye.tristimulus)
+        throw InputError("'" + eye.name + "' has no X, Y, Z: it cannot look at a projected film");
+    const std::array<const Curve*, 1> projector{&film_.projector};
     const Triple whole = respondXyz(eye, projector);
     if (!(whole[1] > 0))
         throw InputError("the projector's lamp of '" + film_.name + "' gives no light to the eye");
 
+    nodes_.clear();
+    lamp_ = {};
     Wavelengths grid;
     for (double nm = fromNm; nm <= toNm; nm += stepNm)
         grid.nm.push_back(nm);
@@ -57,7 +75,6 @@ FilmProjection::FilmProjection(Film film, const Detector& eye) : film_(std::move
             lamp_[k] += node.weight[k];
         nodes_.push_back(node);
     }
-    balanceDyes();
 }
 
 Triple FilmProjection::seen(const Triple& dyes) const {

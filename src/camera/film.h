@@ -48,6 +48,10 @@ class FilmProjection {
     /// Throws InputError for an eye without X Y Z, and for dyes that cannot make a neutral.
     FilmProjection(Film film, const Detector& eye);
 
+    /// Looks at the same film with another lamp or another eye (nothing: the film's own lamp, `standard`).
+    /// The dyes stay those that the film was made with. Throws InputError as above.
+    void project(const Spectrum* lamp, const Detector* eye, const Detector& standard);
+
     /// Relative exposures of the layers for their channels, where a luminance of `whiteLuminance` cd/m² under
     /// the balancing light is a white diffuser; `ev` stops more.
     [[nodiscard]] Triple exposures(const std::vector<double>& channels, double whiteLuminance,
@@ -64,6 +68,7 @@ class FilmProjection {
     [[nodiscard]] const Triple& dyePerDensity() const { return amount_; }
 
   private:
+    void light(const Detector& eye);  ///< nodes and lamp for the projector
     [[nodiscard]] Triple seen(const Triple& dyes) const;
     void balanceDyes();
 

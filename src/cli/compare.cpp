@@ -86,6 +86,8 @@ Result compareObservers(const CompareArguments& arguments, const Cube& a, const 
     ObserverArguments first = arguments.observer, second = arguments.observer;
     first.observer = arguments.observers[0];
     second.observer = arguments.observers[1];
+    for (ObserverArguments* one : {&first, &second})
+        if (!namesFilm(one->observer)) one->projector = one->viewer = "";
     White whiteA, whiteB;
     const ChannelImage xyzA = adapted(first, method, a, notes, whiteA),
                        xyzB = adapted(second, method, b, notes, whiteB);

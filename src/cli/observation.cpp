@@ -63,6 +63,14 @@ void addObserverOptions(CLI::App& command, ObserverArguments& arguments) {
             "nikon-5100, sigma-sd-merrill, dcs200-like)")
         ->type_name("NAME|FILE");
     command
+        .add_option("--projector", arguments.projector,
+                    "a film's: the lamp that its transparency is looked at with; default: the film's own")
+        ->type_name("LIGHT");
+    command
+        .add_option("--viewer", arguments.viewer,
+                    "a film's: the observer who looks at its projection; default: cie1931-2")
+        ->type_name("NAME|FILE");
+    command
         .add_option("--white", arguments.white,
                     "the white: a light's spectrum (chromaticity only), X,Y,Z with Y in cd/m2, at:X,Y for "
                     "a pixel, or image for the mean of all; "
@@ -80,8 +88,18 @@ bool namesFilm(const std::string& observer) {
 Detector Observation::wantedDetector(const ObserverArguments& arguments) {
     if (arguments.detector) return *arguments.detector;
     const std::string& observer = arguments.observer;
+    if ((!arguments.projector.empty() || !arguments.viewer.empty()) && !isFilm(observer, library_))
+        throw UsageError(fmt::format("{}: '{}' is no film",
+                                     arguments.projector.empty() ? "--viewer" : "--projector", observer));
     if (isFilm(observer, library_)) {
         film_.emplace(filmFor(observer, resolver_, library_), standard_);
+        if (!arguments.projector.empty() || !arguments.viewer.empty()) {
+            std::optional<Spectrum> lamp;
+            std::optional<Detector> eye;
+            if (!arguments.projector.empty()) lamp = resolver_.resolve(arguments.projector, Role::light, {});
+            if (!arguments.viewer.empty()) eye = detectorFor(arguments.viewer, resolver_, {});
+            film_->project(lamp ? &*lamp : nullptr, eye ? &*eye : nullptr, standard_);
+        }
         return film_->film().layers;
     }
     const size_t hash = observer.find(".xml#");

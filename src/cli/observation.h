@@ -24,7 +24,8 @@ namespace spectrad {
 
 struct ObserverArguments {
     std::string observer = "cie1931-2", white;
-    double filmStops = 0;  ///< of exposure more, for a film
+    double filmStops = 0;               ///< of exposure more, for a film
+    std::string projector{}, viewer{};  ///< of a film: lamp and eye instead of its own and of CIE 1931
     /// Where files that `observer` names are looked for, and whether no others may be read.
     std::filesystem::path folder = ".";
     bool restricted = false;

@@ -84,6 +84,7 @@ Json secondLook(const ObserveArguments& arguments, const Task& task, const Rende
                 const Cube& cube, Notes& notes) {
     ObserverArguments second = arguments.observer;
     second.observer = arguments.seenBy;
+    second.projector = second.viewer = "";
     const Observation observation(second, cube.info, notes);
     if (!observation.detector().tristimulus)
         throw InputError("--seen-by: '" + arguments.seenBy + "' is no observer with X, Y, Z");
@@ -100,10 +101,10 @@ Json secondLook(const ObserveArguments& arguments, const Task& task, const Rende
             own.plane[k][i] = xyz[k];
     }
     const ColourDifference difference = displayMetamerism(rendered.signals, display, own);
-    printError(fmt::format("'{}' on {} for {}: CIEDE2000 mean {}, 95 % {}, max {} at {},{}", arguments.output,
-                           task.spectral->name, arguments.seenBy, rounded(difference.mean, 4),
-                           rounded(difference.p95, 4), rounded(difference.max, 4), difference.maxX,
-                           difference.maxY));
+    notes.say(fmt::format("'{}' on {} for {}: CIEDE2000 mean {}, 95 % {}, max {} at {},{}", arguments.output,
+                          task.spectral->name, arguments.seenBy, rounded(difference.mean, 4),
+                          rounded(difference.p95, 4), rounded(difference.max, 4), difference.maxX,
+                          difference.maxY));
     return {{"observer", arguments.seenBy},
             {"mean", difference.mean},
             {"p95", difference.p95},

@@ -1,5 +1,6 @@
 // Detectors by every way of naming them, from the command line.
 #include "cli/support.h"
+#include "image/picture.h"
 
 #include <cmath>
 
@@ -78,6 +79,86 @@ TEST_CASE("A film is exposed by the image and projected: brighter scenes look br
     const std::vector<double> more = luminances("50,50,50");
     for (size_t i = 1; i < y.size(); ++i)
         CHECK(more[i - 1] == Approx(y[i]).epsilon(1e-5));
+}
+
+TEST_CASE("A film in another projector is another picture; an eye has no projector") {
+    const Folder folder;
+    writeFlat(folder);
+    const auto reading = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"measure",          "flat.exr", "--at",  "1,1",   "--observer",
+                                           "generic-reversal", "--white",  "1,1,1", "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = run(folder, arguments);
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        return outcome.json()[0].at("rendered").at("XYZ");
+    };
+    const json own = reading({}), table = reading({"--projector", "illuminants/D50"});
+    const auto bluer = [](const json& xyz) { return xyz[2].get<double>() / xyz[1].get<double>(); };
+    CHECK(bluer(table) > 1.3 * bluer(own));
+    CHECK(reading({"--viewer", "cie1931-2"}) == own);
+    requireError(run(folder, {"measure", "flat.exr", "--at", "1,1", "--projector", "illuminants/A"}), 2,
+                 "is no film");
+    requireError(run(folder, {"observe", "flat.exr", "-o", "x.png", "--observer", "generic-reversal",
+                              "--viewer", "nikon-5100"}),
+                 1, "no X, Y, Z");
+}
+
+TEST_CASE("The mean of the image as white makes a flat image grey, and black has none") {
+    const Folder folder;
+    cli::writeCube(folder / "warm.exr", 4, 4, "380:780:5", [](int, int, double nm) { return nm / 500; });
+    const Outcome grey = run(folder, {"observe", "warm.exr", "-o", "g.png", "--white", "image", "--json"});
+    INFO(grey.err);
+    REQUIRE(grey.code == 0);
+    CHECK(grey.json().at("white").at("name") == "image");
+    const std::vector<std::uint8_t> rgb = spectrad::readPng(folder / "g.png").pixels;
+    for (size_t i = 0; i < rgb.size(); i += 3) {
+        CHECK(rgb[i] == rgb[i + 1]);
+        CHECK(rgb[i + 1] == rgb[i + 2]);
+    }
+    cli::writeCube(folder / "black.exr", 4, 4, "380:780:5", [](int, int, double) { return 0.0; });
+    requireError(run(folder, {"observe", "black.exr", "-o", "b.png", "--white", "image"}), 1, "black");
+}
+
+TEST_CASE("The gamut map marks what the display lacks, in blue below and red above, and nothing else") {
+    const Folder folder;
+    // A grey, a laser's green (red and blue below 0), a grey twice the white.
+    cli::writeCube(folder / "three.exr", 3, 1, "380:780:5", [](int x, int, double nm) {
+        return x == 1 ? (nm == 520 ? 40.0 : 0.0) : x == 0 ? 0.5 : 2.0;
+    });
+    const double y = run(folder, {"measure", "three.exr", "--at", "0,0", "--json"}).json()[0].at("XYZ")[1];
+    const std::string white = std::to_string(1.5 * y);
+    REQUIRE(run(folder, {"observe", "three.exr", "-o", "p.png", "--gamut-map", "m.png", "--white",
+                         white + "," + white + "," + white, "-q"})
+                .code == 0);
+    const std::vector<std::uint8_t> map = spectrad::readPng(folder / "m.png").pixels;
+    REQUIRE(map.size() == 9);
+    CHECK((map[0] == map[1] && map[1] == map[2]));
+    CHECK(map[5] > map[4]);
+    CHECK(map[6] > map[7]);
+    requireError(run(folder, {"observe", "three.exr", "-o", "p.exr", "--gamut-map", "m.png"}), 2,
+                 "--gamut-map");
+}
+
+TEST_CASE("A display's metamerism is none for who it was made for, some for another, and silent with -q") {
+    const Folder folder;
+    cli::writeCube(folder / "c.exr", 4, 4, "380:780:5",
+                   [](int x, int y, double nm) { return 0.3 + 0.05 * x + 0.1 * y * nm / 780; });
+    const auto seenBy = [&](const std::string& eye, const std::string& quiet) {
+        std::vector<std::string> arguments{
+            "observe",   "c.exr", "-o",     "c.png",        "--display", "displays/lcd-apple-studio",
+            "--seen-by", eye,     "--json", "--exposure=-2"};
+        if (!quiet.empty()) arguments.push_back(quiet);
+        return run(folder, arguments);
+    };
+    const Outcome self = seenBy("cie1931-2", ""), other = seenBy("cie1964-10", "-q");
+    INFO(self.err << other.err);
+    REQUIRE(self.code == 0);
+    REQUIRE(other.code == 0);
+    CHECK(self.json().at("display_metamerism").at("max").get<double>() < 1e-3);
+    CHECK(other.json().at("display_metamerism").at("mean").get<double>() > 0.3);
+    CHECK(self.err.find("CIEDE2000") != std::string::npos);
+    CHECK(other.err.empty());
 }
 
 TEST_CASE("metamer makes a table that matches where it should, and judges it as a pair") {

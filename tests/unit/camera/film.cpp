@@ -115,3 +115,27 @@ TEST_CASE("A film's file that lacks or mistakes something is refused with its li
     CHECK_THROWS_WITH(refused("illuminants/A", "illuminants/Q"), Contains("f.film:4:11"));
     CHECK_THROWS_WITH(refused("red 0", "blue 0 3 1 0 1\nred 0"), Contains("given twice"));
 }
+
+TEST_CASE("Another lamp and another eye see the same transmittance: their product, summed nm by nm") {
+    Laboratory lab;
+    const Spectrum lamp = lab.resolver.resolve("illuminants/D50", Role::light, {});
+    const Detector ten = detectorFor("cie1964-10", lab.resolver, {});
+    const Triple densities{0.6, 1.1, 1.7}, dyes = lab.film.dyePerDensity();
+    lab.film.project(&lamp, &ten, lab.eye);
+    CHECK(lab.film.dyePerDensity() == dyes);
+    Triple sum{};
+    double lampY = 0;
+    for (double nm = 360; nm <= 832; nm += 0.25) {
+        const double light = lamp.curve().at(nm), t = lab.film.transmittance(densities, nm);
+        for (size_t k = 0; k < 3; ++k)
+            sum[k] += light * t * ten.response[k].at(nm);
+        lampY += light * ten.response[1].at(nm);
+    }
+    const Triple seen = lab.film.xyz(densities);
+    for (size_t k = 0; k < 3;
+         ++k)  // the projection takes dyes as linear over hats of 4 nm: 2e-3 at such densities
+        CHECK(seen[k] == Approx(sum[k] / lampY).epsilon(2.5e-3));
+    CHECK(lab.film.film().projectorName == "illuminants/D50");
+    const Detector camera = detectorFor("nikon-5100", lab.resolver, {});
+    CHECK_THROWS_WITH(lab.film.project(nullptr, &camera, lab.eye), Contains("no X, Y, Z"));
+}
