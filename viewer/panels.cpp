@@ -102,6 +102,7 @@ void drawStatus(Session& session, const PanelState& state, float width, float he
     line += session.edited == 0 ? "   look A" : "   look B";
     line += "   H: keys";
     ImGui::TextUnformatted(line.c_str());
+    if (!state.remark.empty()) ImGui::TextDisabled("%s", state.remark.c_str());
     if (!state.message.empty()) {
         ImGui::PushTextWrapPos(width * 0.6f);
         ImGui::TextColored({1, 0.5f, 0.4f, 1}, "%s", state.message.c_str());
@@ -139,7 +140,12 @@ bool chooseName(const char* label, PanelState& state, const std::vector<std::str
     return done;
 }
 
-void prepare(PanelState& state, const Session& session) {
+void prepare(PanelState& state, Session& session) {
+    const std::filesystem::path file = session.subject().file();
+    // A scene stays beside its files; what a cube gives goes to the current folder.
+    state.saveAs =
+        ((session.scene() ? file.parent_path() : std::filesystem::path()) / file.stem()).string() + "-view";
+
     for (const LibraryEntry& entry : session.library().list()) {
         if (entry.name.starts_with("illuminants/")) state.illuminants.push_back(entry.name);
         if (entry.quantity == Quantity::reflectance) state.reflectances.push_back(entry.name);
@@ -197,6 +203,7 @@ void drawPanels(Session& session, PanelState& state, float width, float height) 
     if (session.cube()) drawBands(session);
     drawEye(session, state);
     if (session.picture == Picture::observer) drawComparison(session);
+    drawSave(session, state);
     ImGui::End();
     ImGui::SetNextWindowPos({margin, margin});
     ImGui::SetNextWindowSizeConstraints({column, 0}, {column, height - 60 * state.scale});

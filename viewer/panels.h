@@ -13,9 +13,18 @@
 
 namespace spectrad::view {
 
+/// What a button asked to be written, once the frame is drawn.
+struct Wanted {
+    enum class What { picture, cube, scene, pins } what = What::picture;
+    std::string file;
+};
+
 struct PanelState {
     bool visible = true, help = false;
-    std::string message;             ///< the last error, one line; empty: none
+    std::string message;  ///< the last error, one line; empty: none
+    std::string remark;   ///< what was done at last, one line
+    std::optional<Wanted> wanted;
+    std::string saveAs;              ///< name of files to write, without extension
     std::optional<Hit> selected;     ///< what was clicked
     std::optional<Pin> meter;        ///< under the pointer
     std::uint64_t meterVersion = 0;  ///< of the look that it was measured with
@@ -32,7 +41,7 @@ struct PanelState {
     std::vector<std::array<double, 2>> horseshoe;  ///< x, y of the spectral locus, CIE 1931
 };
 
-void prepare(PanelState& state, const Session& session);
+void prepare(PanelState& state, Session& session);
 /// All panels; `message` takes what a change of theirs could not do.
 void drawPanels(Session& session, PanelState& state, float width, float height);
 
@@ -63,6 +72,7 @@ bool chooseName(const char* label, PanelState& state, const std::vector<std::str
 void drawEye(Session& session, PanelState& state);
 void drawBands(Session& session);
 void drawComparison(Session& session);
+void drawSave(Session& session, PanelState& state);
 void drawMeter(Session& session, PanelState& state, float width);
 void drawHelp(float width, float height);
 

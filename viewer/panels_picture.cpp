@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 namespace spectrad::view {
 
@@ -123,6 +124,24 @@ void drawComparison(Session& session) {
             ImGui::Text("ΔE00 mean %.2f  95%% %.2f  max %.2f", session.difference->mean,
                         session.difference->p95, session.difference->max);
     }
+}
+
+void drawSave(Session& session, PanelState& state) {
+    if (!ImGui::CollapsingHeader("Save")) return;
+    ImGui::SetNextItemWidth(-1);
+    ImGui::InputTextWithHint("##name", "name, without extension", &state.saveAs);
+    const auto button = [&](const char* label, Wanted::What what, const char* extension) {
+        if (ImGui::Button(label) && !state.saveAs.empty()) state.wanted = {what, state.saveAs + extension};
+    };
+    button("picture", Wanted::What::picture, ".png");
+    if (session.scene()) {
+        ImGui::SameLine();
+        button("cube", Wanted::What::cube, ".exr");
+        ImGui::SameLine();
+        button("scene", Wanted::What::scene, ".xml");
+    }
+    ImGui::SameLine();
+    button("pins", Wanted::What::pins, ".csv");
 }
 
 }  // namespace spectrad::view

@@ -19,6 +19,23 @@ Vec3 vertexAt(const World& world, const std::vector<Affine>& toWorld, std::uint3
     return toWorld[world.vertexDraw[vertex]].point({p[0], p[1], p[2]});
 }
 
+bool isPicture(const std::optional<TextureUse>& use) {
+    return use && use->mapping == TextureMapping::picture;
+}
+
+/// Whether a picture depends on the camera's place beyond perspective: curved shapes are cut into triangles
+/// as it sees them, mirrors and a backdrop show what was rendered for it.
+bool followsCamera(const Scene& scene, const FlatScene& flat) {
+    for (const FlatScene::Object& object : flat.objects)
+        for (const ShapeUse& use : object.node->shapes)
+            if (use.shape.kind != ShapeKind::box && use.shape.kind != ShapeKind::plane) return true;
+    if (scene.background && isPicture(scene.background->texture)) return true;
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
+        return (m.gloss && isPicture(m.gloss->reflects)) || (m.specular && isPicture(m.specular->reflects)) ||
+               (m.conductor && isPicture(m.conductor->reflects));
+    });
+}
+
 }  // namespace
 
 SceneSubject::SceneSubject(const std::filesystem::path& file, const LoadOptions& load,
@@ -27,6 +44,7 @@ SceneSubject::SceneSubject(const std::filesystem::path& file, const LoadOptions&
     : library_(library),
       device_(device),
       notes_(notes),
+      load_(load),
       settings_(settings),
       scene_(loadScene(file, library, load, notes)) {
     settings_.lightsApart = scene_.lights.size() <= mostLightsApart;
@@ -45,6 +63,17 @@ SceneSubject::SceneSubject(const std::filesystem::path& file, const LoadOptions&
     for (const Light& light : scene_.lights)
         if (light.emitter.texture)
             throw InputError(light.where, "a light of a pass's colour is not there in the viewer yet");
+    if (shot.pass && (shot.pass->screen || shot.pass->mirror))
+        throw InputError(shot.pass->where, "pass '" + shot.pass->name + "' is a picture on a " +
+                                               (shot.pass->screen ? "display" : "mirror") +
+                                               ": render it, and view the cube");
+    camera_ = shot.camera;
+    const FlatScene whole = flatten(scene_);
+    for (const Placed& placed : whole.cameras)
+        if (placed.index == camera_) {
+            cameraNode_ = placed.toWorld;
+            break;
+        }
     finalSamples_ = made.samples;
     view_ = made.view;
     live_ = std::make_unique<LiveImage>(device_, std::move(made));
@@ -59,6 +88,7 @@ SceneSubject::SceneSubject(const std::filesystem::path& file, const LoadOptions&
     const double distance = std::max(dot(middle - pose_.eye, forward), 0.05 * radius);
     pose_.target = pose_.eye + forward * (distance > 0 ? distance : 1);
     home_ = pose_;
+    follows_ = followsCamera(scene_, flat_);
 }
 
 Look SceneSubject::firstLook() const {
@@ -73,6 +103,7 @@ Look SceneSubject::firstLook() const {
 }
 
 void SceneSubject::place() {
+    stale_ = follows_;
     live_->move(view_, scene_, flat_);
 }
 
@@ -162,6 +193,30 @@ Scene SceneSubject::sceneOf(const Look& look) const {
     return changed;
 }
 
+std::optional<SceneSubject::Moved> SceneSubject::moved() const {
+    const auto same = [](Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; };
+    if (same(pose_.eye, home_.eye) && same(pose_.target, home_.target) && same(pose_.up, home_.up) &&
+        pose_.pixelsPerSlopeOverHeight == home_.pixelsPerSlopeOverHeight)
+        return std::nullopt;
+    const Affine toNode = inverse(cameraNode_);
+    return Moved{
+        camera_, toNode.point(pose_.eye), toNode.point(pose_.target), normalized(toNode.direction(pose_.up)),
+        scene_.cameras[camera_].viewHeight * home_.pixelsPerSlopeOverHeight / pose_.pixelsPerSlopeOverHeight};
+}
+
+void SceneSubject::placeCamera(Scene& scene) const {
+    const auto now = moved();
+    if (!now) return;
+    scene.cameras[now->camera].toNode = Affine::lookAt(now->eye, now->target, now->up);
+    scene.cameras[now->camera].viewHeight = now->viewHeight;
+}
+
+Scene SceneSubject::changed(const Look& look) const {
+    Scene scene = sceneOf(look);
+    placeCamera(scene);
+    return scene;
+}
+
 std::vector<LightGroup> SceneSubject::groupsOf(const Scene& changed) const {
     std::vector<sd_light> lights;
     return groupLights(
@@ -174,7 +229,8 @@ void SceneSubject::plan(Table& table, const Look& look, const Scene& changed) {
     settings.geometry = false;
     settings.eye = look.eye.get();
     Notes unsaid;  // what there is to say was said when the scene was opened
-    PassTextures passes(changed, library_, device_, settings_, unsaid);
+    settings.size = {view_.width, view_.height};
+    PassTextures passes(changed, library_, device_, settings, unsaid);
     Plan made = makePlan(changed, settings, library_, passes, unsaid);
     table.recipes = made.terms.recipes;
     table.spectra = made.terms.spectra;
@@ -186,14 +242,31 @@ void SceneSubject::plan(Table& table, const Look& look, const Scene& changed) {
     };
     const World& world = live_->plan().world;
     const bool shared = made.groups == live_->plan().groups && same(made.world.materials, world.materials) &&
-                        same(made.world.lobes, world.lobes) && same(made.world.tables, world.tables);
+                        same(made.world.lobes, world.lobes) && same(made.world.tables, world.tables) &&
+                        same(made.world.textures, world.textures) && same(made.world.texels, world.texels);
     if (shared && settings_.lightsApart) return;
     live_->wear(std::move(made));
     tables_.clear();
-    place();
+    live_->move(view_, scene_, flat_);
+}
+
+void SceneSubject::follow() {
+    if (!stale_ || samples() < finalSamples_) return;
+    stale_ = false;
+    Scene moved = scene_;
+    placeCamera(moved);
+    RenderSettings settings = settings_;
+    settings.size = {view_.width, view_.height};
+    Notes unsaid;
+    PassTextures passes(moved, library_, device_, settings, unsaid);
+    Plan made = makePlan(moved, settings, library_, passes, unsaid);
+    live_ = std::make_unique<LiveImage>(device_, std::move(made));
+    tables_.clear();
+    live_->move(view_, scene_, flat_);
 }
 
 const SceneSubject::Table& SceneSubject::table(const Look& look) {
+    follow();
     std::map<Index, std::string> worn;
     for (const auto& [material, reflectance] : look.reflectances)
         worn[material] = reflectance.text;
@@ -201,7 +274,7 @@ const SceneSubject::Table& SceneSubject::table(const Look& look) {
                                     [&](const Table& t) { return t.version == look.version; });
     if (known != tables_.end()) return *known;
 
-    const Scene changed = sceneOf(look);
+    const Scene changed = this->changed(look);
     // The nearest there is: the same materials, so that only lights and eye may differ.
     const auto near = std::find_if(tables_.rbegin(), tables_.rend(),
                                    [&](const Table& t) { return t.reflectances == worn; });

@@ -34,6 +34,20 @@ class SceneSubject : public Subject {
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const Plan& plan() const { return live_->plan(); }
 
+    /// As it was opened.
+    [[nodiscard]] const LoadOptions& loadOptions() const { return load_; }
+    [[nodiscard]] const RenderSettings& settings() const { return settings_; }
+    [[nodiscard]] const Device& device() const { return device_; }
+    /// The scene as it is looked at: lights, reflectances, and the camera where it stands now.
+    [[nodiscard]] Scene changed(const Look& look) const;
+    /// The camera where it stands now, in the space of its node; nothing while it has not moved.
+    struct Moved {
+        Index camera = 0;
+        Vec3 eye, target, up;   ///< metres
+        double viewHeight = 1;  ///< orthographic, metres
+    };
+    [[nodiscard]] std::optional<Moved> moved() const;
+
     [[nodiscard]] const Pose& pose() const { return pose_; }
     /// Where the scene's own camera stands.
     [[nodiscard]] const Pose& home() const { return home_; }
@@ -80,23 +94,31 @@ class SceneSubject : public Subject {
     };
     [[nodiscard]] const Table& table(const Look& look);
     [[nodiscard]] Scene sceneOf(const Look& look) const;
+    void placeCamera(Scene& scene) const;
     [[nodiscard]] std::vector<LightGroup> groupsOf(const Scene& scene) const;
     /// All terms anew, materials included.
     void plan(Table& table, const Look& look, const Scene& changed);
     void resolve();
+    /// For the last samples of a camera that has moved: what depends on where it stands is made anew.
+    void follow();
     void showColours(const std::vector<float>& colours, const Shown& shown, Codes& codes);
     void place();
 
     const Library& library_;
     Device device_;
     Notes& notes_;
+    LoadOptions load_;
     RenderSettings settings_;
     Scene scene_;
     FlatScene flat_;
     std::unique_ptr<LiveImage> live_;
     std::vector<Table> tables_;  ///< the last few looks'
     View view_;
+    Index camera_ = 0;   ///< whose picture it is
+    Affine cameraNode_;  ///< that camera's node to the world
     Pose pose_, home_;
+    bool follows_ = false;  ///< shapes cut, or pictures made, as the camera sees them
+    bool stale_ = false;    ///< made for another place or size than the view's
     int finalSamples_ = 16;
     std::optional<int> samples_;
 };

@@ -166,6 +166,17 @@ const std::vector<std::pair<std::string, Reader>>& readers() {
                  line.refuse("a window of that size is not possible (0…16384 on a side)");
          }},
         {"screenshot", file(Kind::screenshot, "screenshot FILE.png")},
+        {"save",
+         [](const Line& line, Action& action) {
+             line.need(2, 2, "save picture|cube|scene FILE");
+             const std::string& what = line.words[1];
+             if (what != "picture" && what != "cube" && what != "scene")
+                 line.refuse("'" + what + "' cannot be saved (allowed: picture, cube, scene)");
+             action.kind = what == "picture" ? Kind::savePicture
+                           : what == "cube"  ? Kind::saveCube
+                                             : Kind::saveScene;
+             action.text = line.words[2];
+         }},
         {"channels", file(Kind::channels, "channels FILE.exr")},
         {"pins", file(Kind::pins, "pins FILE.csv")},
         {"pin",

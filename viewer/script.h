@@ -12,15 +12,18 @@ namespace spectrad::view {
 
 struct Action {
     enum class Kind {
-        events,      ///< keys, pointer, buttons
-        set,         ///< text: "lamp.spectrum=illuminants/A"
-        camera,      ///< text: orbit, pan, dolly, frame; x, y
-        resize,      ///< x, y: window units
-        screenshot,  ///< text: PNG
-        channels,    ///< text: EXR of X, Y, Z
-        pin,         ///< x, y
-        pins,        ///< text: CSV
-        wait,        ///< x: frames
+        events,       ///< keys, pointer, buttons
+        set,          ///< text: "lamp.spectrum=illuminants/A"
+        camera,       ///< text: orbit, pan, dolly, frame; x, y
+        resize,       ///< x, y: window units
+        screenshot,   ///< text: PNG
+        savePicture,  ///< text: PNG without panels
+        saveCube,     ///< text: EXR or ENVI
+        saveScene,    ///< text: XML
+        channels,     ///< text: EXR of X, Y, Z
+        pin,          ///< x, y
+        pins,         ///< text: CSV
+        wait,         ///< x: frames
         close
     } kind = Kind::events;
     std::vector<Event> events;

@@ -1,6 +1,7 @@
 #include "viewer/session.h"
 
 #include "base/text.h"
+#include "viewer/save.h"
 
 #include <fmt/format.h>
 
@@ -216,6 +217,16 @@ bool Session::refresh(Codes& left, Codes& right) {
     }
     shownState_ = state;
     return true;
+}
+
+void Session::saveScene(const std::filesystem::path& target) {
+    if (!scene()) throw UsageError("a cube is no scene to be saved");
+    view::saveScene(*scene(), look(edited), target);
+}
+
+void Session::saveCube(const std::filesystem::path& target) {
+    if (!scene()) throw UsageError("a cube is there already");
+    view::saveCube(*scene(), look(edited), target, library_, software, notes_);
 }
 
 Pin Session::measured(int x, int y, const Look& look) {

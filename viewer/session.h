@@ -84,7 +84,12 @@ class Session {
     /// CSV of the pins, as `spectrad measure` prints it.
     [[nodiscard]] std::string pinsAsCsv();
 
-    int edited = 0;  ///< the look that set() changes
+    /// Scenes only, else UsageError: with the look that is edited, where a file is named (viewer/save.h).
+    void saveScene(const std::filesystem::path& target);
+    void saveCube(const std::filesystem::path& target);
+
+    std::string software = "Spectrad";  ///< what files say that made them
+    int edited = 0;                     ///< the look that set() changes
     Mode mode = Mode::single;
     double divider = 0.5, mix = 0.5;
     Adaptation adaptation = Adaptation::cat16;

@@ -186,6 +186,7 @@ void Viewer::frame(double seconds) {
     panels_.samples = session_.scene() ? samples_ : 0;
     draw(size);
     face_.present();
+    writeWanted();
     panels_.frameSeconds = clock.seconds();
 }
 

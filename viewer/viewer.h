@@ -37,7 +37,13 @@ class Viewer {
     /// Frames until settled, then what is on the screen.
     [[nodiscard]] Picture8 picture();
 
+    /// The picture in its own size, without panels, to a PNG.
+    void savePicture(const std::filesystem::path& target);
+
   private:
+    [[nodiscard]] Picture8 pictureAlone();
+    void writeAlone(const std::filesystem::path& target);
+    void writeWanted();
     void take(const Event& event);
     void takeKey(const Event& event);
     void takeMove(const Event& event);
@@ -66,12 +72,15 @@ class Viewer {
     /// Runs what may throw an error of the user's, and shows it in the window.
     template <typename Call>
     void said(Call call) {
+        panels_.remark.clear();
         try {
             call();
             panels_.message.clear();
         } catch (const InputError& error) {
             panels_.message = error.what();
         } catch (const UsageError& error) {
+            panels_.message = error.what();
+        } catch (const MachineError& error) {  // a file that cannot be written
             panels_.message = error.what();
         }
     }

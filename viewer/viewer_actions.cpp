@@ -4,7 +4,61 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace spectrad::view {
+
+Picture8 Viewer::pictureAlone() {
+    const int width = session_.subject().width(), height = session_.subject().height();
+    Picture8 alone{width, height, 3, {}};
+    alone.pixels.reserve(3 * leftPixels_.size());
+    const bool split = session_.mode == Mode::split && !rightPixels_.empty();
+    const int divider = split ? dividerColumn(width) : width;
+    for (size_t i = 0; i < leftPixels_.size(); ++i) {
+        const bool right = static_cast<int>(i % static_cast<size_t>(width)) >= divider;
+        const std::uint32_t code = right ? rightPixels_[i] : leftPixels_[i];
+        for (const int shift : {0, 8, 16})
+            alone.pixels.push_back(static_cast<std::uint8_t>(code >> shift & 255));
+    }
+    return alone;
+}
+
+void Viewer::writeAlone(const std::filesystem::path& target) {
+    if (target.extension() != ".png")
+        throw UsageError("'" + target.string() + "' must end in .png to be a picture");
+    writePng(target, pictureAlone(),
+             {{"Software", session_.software},
+              {"Description", fmt::format("{} seen by {}", session_.subject().file().string(),
+                                          session_.look(0).eye->detector.name)}},
+             session_.display == "srgb");
+}
+
+void Viewer::savePicture(const std::filesystem::path& target) {
+    (void)picture();
+    writeAlone(target);
+}
+
+void Viewer::writeWanted() {
+    if (!panels_.wanted || !settled_) return;
+    const Wanted wanted = *std::exchange(panels_.wanted, std::nullopt);
+    said([&] {
+        switch (wanted.what) {
+            case Wanted::What::picture:
+                writeAlone(wanted.file);
+                break;
+            case Wanted::What::cube:
+                session_.saveCube(wanted.file);
+                break;
+            case Wanted::What::scene:
+                session_.saveScene(wanted.file);
+                break;
+            case Wanted::What::pins:
+                writeFile(wanted.file, session_.pinsAsCsv());
+                break;
+        }
+        panels_.remark = "wrote " + wanted.file;
+    });
+}
 
 void Viewer::play(const Action& action) {
     const int x = static_cast<int>(action.x), y = static_cast<int>(action.y);
@@ -32,6 +86,15 @@ void Viewer::play(const Action& action) {
             writePng(action.text, picture());
             return;
         }
+        case Action::Kind::savePicture:
+            savePicture(action.text);
+            return;
+        case Action::Kind::saveCube:
+            session_.saveCube(action.text);
+            return;
+        case Action::Kind::saveScene:
+            session_.saveScene(action.text);
+            return;
         case Action::Kind::channels: {
             (void)picture();
             const ChannelImage xyz = session_.subject().xyz(session_.look(0));

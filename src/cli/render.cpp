@@ -7,6 +7,7 @@
 #include "colour/develop.h"
 #include "image/cube.h"
 #include "image/picture.h"
+#include "render/cube_info.h"
 #include "render/cube_preview.h"
 #include "render/passes.h"
 #include "render/renderer.h"
@@ -84,30 +85,9 @@ std::string recordedCommand(const RenderArguments& arguments) {
     return text;
 }
 
-/// What makes the file a measurement: which scene, how, with what, under which white.
 CubeInfo cubeInfo(const RenderArguments& arguments, const Scene& scene, const Plan& plan,
                   const Device& device) {
-    CubeInfo info;
-    info.width = plan.view.width;
-    info.height = plan.view.height * plan.faces;
-    info.wavelengths = plan.wavelengths;
-    info.projectionStated = true;
-    info.kind = plan.as == PassKind::reflectance     ? CubeKind::reflectance
-                : plan.as == PassKind::transmittance ? CubeKind::transmittance
-                : plan.as == PassKind::irradiance    ? CubeKind::irradiance
-                                                     : CubeKind::radiance;
-    info.attributes = {{"software", "Spectrad " SPECTRAD_VERSION},
-                       {"scene", scene.file},
-                       {"sceneSha256", scene.sha256},
-                       {"commandLine", recordedCommand(arguments)},
-                       {"samples", std::to_string(plan.samples)},
-                       {"device", device.info().name + " (" + device.info().platform + ")"},
-                       {attribute::white, plan.whiteName},
-                       {attribute::whiteXyz, fmt::format("{},{},{}", shortest(plan.white[0]),
-                                                         shortest(plan.white[1]), shortest(plan.white[2]))}};
-    if (!plan.cameraName.empty()) info.attributes["camera"] = plan.cameraName;
-    if (!plan.passName.empty()) info.attributes["pass"] = plan.passName;
-    return info;
+    return cubeInfoOf(scene, plan, device, "Spectrad " SPECTRAD_VERSION, recordedCommand(arguments));
 }
 
 /// The picture for people: what `observe` makes of the cube by default, from the renderer's preview, whose

@@ -72,6 +72,7 @@ ExitCode show(const ViewArguments& arguments) {
     view::Session session(openerOf(arguments, library, console.notes()), library, console.notes(),
                           arguments.scene.restricted);
     console.printNotes();
+    session.software = "Spectrad " SPECTRAD_VERSION;
     const auto [width, height] = sizeOf(arguments, session, offscreen);
     const std::unique_ptr<view::Face> face =
         offscreen ? view::openOffscreen(width, height)
