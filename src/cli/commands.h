@@ -19,6 +19,7 @@ void addBake(CLI::App& app, Action& action);
 void addObserve(CLI::App& app, Action& action);
 void addMeasure(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
+void addCertify(CLI::App& app, Action& action);
 void addStudy(CLI::App& app, Action& action);
 void addMetamer(CLI::App& app, Action& action);
 void addView(CLI::App& app, Action& action);

@@ -89,6 +89,7 @@ ExitCode runProgram(const std::vector<std::string>& arguments) {
     addObserve(app, action);
     addMeasure(app, action);
     addCompare(app, action);
+    addCertify(app, action);
     addStudy(app, action);
     addMetamer(app, action);
     addExpose(app, action);

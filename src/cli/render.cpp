@@ -1,5 +1,6 @@
 // spectrad render: a scene into a spectral image.
 #include "base/text.h"
+#include "cli/certificate_report.h"
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/observation.h"
@@ -29,6 +30,7 @@ namespace {
 struct RenderArguments {
     SceneArguments scene;
     std::string output, preview, format, compression;
+    VerifyArguments verify;  ///< no share: nothing is verified
     bool half = false, json = false, quiet = false;
 };
 
@@ -87,7 +89,11 @@ std::string recordedCommand(const RenderArguments& arguments) {
 
 CubeInfo cubeInfo(const RenderArguments& arguments, const Scene& scene, const Plan& plan,
                   const Device& device) {
-    return cubeInfoOf(scene, plan, device, "Spectrad " SPECTRAD_VERSION, recordedCommand(arguments));
+    CubeInfo info = cubeInfoOf(scene, plan, device, "Spectrad " SPECTRAD_VERSION, recordedCommand(arguments));
+    info.attributes["sources"] = sourcesOf(scene);
+    if (!arguments.scene.set.empty()) info.attributes["overrides"] = Json(arguments.scene.set).dump();
+    if (!arguments.scene.only.empty()) info.attributes["only"] = arguments.scene.only;
+    return info;
 }
 
 /// The picture for people: what `observe` makes of the cube by default, from the renderer's preview, whose
@@ -126,7 +132,7 @@ class Preview {
 };
 
 struct Seconds {
-    double load = 0, plan = 0, build = 0, render = 0, write = 0, total = 0;
+    double load = 0, plan = 0, verify = 0, build = 0, render = 0, write = 0, total = 0;
 };
 
 /// Seconds since the last call, or since construction.
@@ -224,6 +230,26 @@ void checkSaves(const std::vector<GraphNode>& graph, const Output& output) {
         }
 }
 
+/// Renders the image once without writing it, for the pixels that are drawn: the file's header, which holds
+/// the certificate, comes first.
+Certificate verified(const VerifyArguments& arguments, const Scene& scene, const RenderSettings& settings,
+                     const Plan& plan, const CubeInfo& info, bool half, const Library& library,
+                     const Device& device, bool quiet) {
+    Notes unheard;
+    const SpectrumResolver resolver(library, {}, false, unheard);
+    const Detector observer =
+        asUsage("--observer", [&] { return detectorFor(arguments.observer, resolver, {}); });
+    const Reference reference(scene, settings, plan.wavelengths, observer, library, device);
+    PixelSample sample(info, parseShare("--verify", arguments.share), parseSeed(arguments.seed), observer,
+                       half);
+    ProgressBar bar("verifying", quiet);
+    Renderer renderer(device, plan);
+    renderer.render(
+        [&](int firstRow, int rows, const float* bands, const float*) { sample.add(firstRow, rows, bands); });
+    const White white = defaultWhite(scene, settings, observer, library, device, sample.brightest());
+    return certify(sample, reference, observer, white, [&](double share) { bar.show(share); });
+}
+
 ExitCode render(const RenderArguments& arguments) {
     Laps clock;
     Seconds seconds;
@@ -252,7 +278,14 @@ ExitCode render(const RenderArguments& arguments) {
     checkSaves(passes.graph(), output);
     const Plan plan = makePlan(scene, settings, library, passes, console.notes());
     seconds.plan = clock.lap();
-    const CubeInfo info = cubeInfo(arguments, scene, plan, *device);
+    CubeInfo info = cubeInfo(arguments, scene, plan, *device);
+    std::optional<Certificate> certificate;
+    if (!arguments.verify.share.empty()) {
+        certificate = verified(arguments.verify, scene, settings, plan, info, output.options.half, library,
+                               *device, arguments.quiet);
+        info.attributes.merge(attributesOf(*certificate));
+        seconds.verify = clock.lap();
+    }
     std::vector<std::unique_ptr<CubeWriter>> writers;
     writers.push_back(openWriter(output, info, console.notes()));
     const Pass* target = passes.graph().back().shot.pass;
@@ -286,10 +319,17 @@ ExitCode render(const RenderArguments& arguments) {
     seconds.total = clock.total();
 
     console.printNotes();
-    if (arguments.json)
-        printJson(described(output, plan, *device, seconds));
-    else if (!arguments.quiet)
+    if (arguments.json) {
+        Json out = described(output, plan, *device, seconds);
+        if (certificate) {
+            out["seconds"]["verify"] = seconds.verify;
+            out["certificate"] = described(*certificate);
+        }
+        printJson(out);
+    } else if (!arguments.quiet) {
         printSummary(output, plan, seconds);
+        if (certificate) printText(inWords(*certificate));
+    }
     return ExitCode::ok;
 }
 
@@ -317,6 +357,18 @@ void addRender(CLI::App& app, Action& action) {
     command->add_option("--compression", arguments->compression, "of EXR, all lossless; default: piz")
         ->type_name("none|zips|zip|piz");
     command->add_flag("--half", arguments->half, "16-bit floats: 11 significant bits, up to 65504 (EXR)");
+    command
+        ->add_flag("--verify{1%}", arguments->verify.share,
+                   "compute this share of the pixels again, in double precision with exact spectra and 64 "
+                   "samples, and write into the file how far the image is from that; --verify alone: 1%, at "
+                   "least 1000 pixels")
+        ->type_name("SHARE");
+    command->add_option("--seed", arguments->verify.seed, "draws the pixels of --verify; default: 1")
+        ->type_name("N");
+    command
+        ->add_option("--observer", arguments->verify.observer,
+                     "whose CIEDE2000 --verify states; default: cie1931-2")
+        ->type_name("NAME|FILE");
     command->add_flag("--json", arguments->json,
                       "print a JSON object: sizes, seconds, peak_rss_bytes, the plan");
     command->add_flag("-q,--quiet", arguments->quiet, "no remarks, no progress, no summary");

@@ -322,7 +322,7 @@ Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& l
     plan.groups = static_cast<std::uint32_t>(groups.size());
     const Eye standard = standardEye(library);
     TermBuilder builder(plan.wavelengths, settings.eye ? *settings.eye : standard, std::move(groups),
-                        settings.only, textures, plan.world, plan.terms, notes);
+                        settings.only, textures, plan.world, plan.terms, notes, settings.exact);
     const bool asGiven = settings.substitute == Substitute::none;
     const Emitter* background = asGiven && !settings.bake && scene.background ? &*scene.background : nullptr;
     const TextureUse* backdrop = background ? backdropOf(scene, shot.pass) : nullptr;

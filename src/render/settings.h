@@ -13,6 +13,7 @@
 namespace spectrad {
 
 struct Eye;
+struct Detector;
 
 /// Which part of what comes from surfaces is wanted (render --only).
 enum class Only { everything, reflection, fluorescence };
@@ -49,7 +50,9 @@ struct RenderSettings {
     std::uint64_t stripBytes = 0;  ///< device memory a strip may take; 0: chosen from the device
     const Eye* eye = nullptr;      ///< who sees the preview and the white; CIE 1931 if not said
     bool lightsApart = false;      ///< a group for each light: its spectrum and amount are in its terms alone
-    bool geometry = true;          ///< false: materials, lights and terms only, no triangles
+    const Detector* exact =
+        nullptr;           ///< who sees TermTable::exactChannels (references want them); nobody if not said
+    bool geometry = true;  ///< false: materials, lights and terms only, no triangles
 };
 
 /// Rows of the finished image, top to bottom, without gaps: bands[(row * bands + band) * width + x] in

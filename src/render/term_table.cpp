@@ -14,7 +14,8 @@
 namespace spectrad {
 
 TermBuilder::TermBuilder(const Wavelengths& grid, const Eye& eye, std::vector<LightGroup> groups, Only only,
-                         TextureLoader& textures, World& world, TermTable& terms, Notes& notes)
+                         TextureLoader& textures, World& world, TermTable& terms, Notes& notes,
+                         const Detector* exact)
     : grid_(grid),
       eye_(eye),
       groups_(std::move(groups)),
@@ -22,7 +23,8 @@ TermBuilder::TermBuilder(const Wavelengths& grid, const Eye& eye, std::vector<Li
       textures_(textures),
       world_(world),
       terms_(terms),
-      notes_(notes) {
+      notes_(notes),
+      exact_(exact) {
     terms_.bands = grid.size();
 }
 
@@ -119,6 +121,7 @@ void TermBuilder::addTerm(const std::vector<Summand>& sum, bool clip) {
         terms_.spectra.push_back(toFloat(value));
         if (terms_.spectra.back() == 0 && std::abs(value) > negligible * peak) ++lost_;
     }
+    if (exact_) addExact(sum, bands);
     const std::array<float, 3> preview = previewFrom(xyz);
     terms_.preview.insert(terms_.preview.end(), preview.begin(), preview.end());
     terms_.recipes.push_back(recipeOf(sum, groups_, only_));
@@ -128,6 +131,17 @@ void TermBuilder::noteLost() const {
     if (lost_ > 0)
         notes_.warn(fmt::format(
             "{} band values of light times surface below the range of float (1.4e-45) became zero", lost_));
+}
+
+void TermBuilder::addExact(const std::vector<Summand>& sum, const std::vector<double>& bands) {
+    terms_.exactSpectra.insert(terms_.exactSpectra.end(), bands.begin(), bands.end());
+    std::vector<double> channels(exact_->size(), 0.0);
+    for (const Summand& part : sum) {
+        const std::vector<double> seen = respond(*exact_, part.product);
+        for (size_t c = 0; c < channels.size(); ++c)
+            channels[c] += seen[c] * part.factor;
+    }
+    terms_.exactChannels.insert(terms_.exactChannels.end(), channels.begin(), channels.end());
 }
 
 void TermBuilder::addGroupTerms(const Curve& response, double factor) {

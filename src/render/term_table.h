@@ -19,6 +19,7 @@
 namespace spectrad {
 
 struct Eye;
+struct Detector;
 
 /// How a term depends on the light: a light's spectrum times one curve times a number; or on no light; or in
 /// a way that only the material knows (fluorescence), when `group` is `unknown`.
@@ -40,6 +41,9 @@ struct TermTable {
     std::vector<float> spectra;       ///< [term][band]
     std::vector<float> preview;       ///< [term][3]: linear Rec.709 of the exact spectrum, bands do not enter
     std::vector<TermRecipe> recipes;  ///< [term]
+    /// For references, where RenderSettings::exact asks for them: the spectra before they became float, and
+    /// that detector's channels of the exact spectrum, [term][channel]; bands do not enter.
+    std::vector<double> exactSpectra, exactChannels;
     [[nodiscard]] size_t count() const { return preview.size() / 3; }
 };
 
@@ -53,8 +57,10 @@ struct Summand {
 /// [lobe][function][light group].
 class TermBuilder {
   public:
+    /// `exact`: who sees the table's exact channels; nobody: none are kept.
     TermBuilder(const Wavelengths& grid, const Eye& eye, std::vector<LightGroup> groups, Only only,
-                TextureLoader& textures, World& world, TermTable& terms, Notes& notes);
+                TextureLoader& textures, World& world, TermTable& terms, Notes& notes,
+                const Detector* exact = nullptr);
 
     /// Material 0 of the world; without a background it has no terms.
     void addBackground(const Emitter* background, double factor);
@@ -72,6 +78,7 @@ class TermBuilder {
   private:
     /// `clip`: bands below zero (signed noise of a measurement) become zero, and are counted in the notes.
     void addTerm(const std::vector<Summand>& sum, bool clip = false);
+    void addExact(const std::vector<Summand>& sum, const std::vector<double>& bands);
     /// Once per group: light × response.
     void addGroupTerms(const Curve& response, double factor = 1);
     std::uint32_t beginMaterial();
@@ -123,6 +130,7 @@ class TermBuilder {
     World& world_;
     TermTable& terms_;
     Notes& notes_;
+    const Detector* exact_;
     size_t lost_ = 0;
     std::map<std::string, Image> images_;  ///< by what they are and how they lie
 };

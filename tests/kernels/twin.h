@@ -5,20 +5,18 @@
 #include "render/plan.h"
 #include "render/samples.h"
 #include "render/stages.h"
+#include "verify/scalar_geometry.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace spectrad::twin {
 
-struct Vertices {
-    std::vector<float> camera, normal, tangent;  // three a vertex
-    std::vector<sd_vertex> screen;
-};
-Vertices transform(const World& world, const sd_frame& frame);
-
-/// The frame that the renderer makes for a plan, whole image as one strip.
-sd_frame frameOf(const Plan& plan);
+using Vertices = scalar::VerticesOf<float>;
+inline Vertices transform(const World& world, const sd_frame& frame) {
+    return scalar::transform<float>(world, frame);
+}
+using scalar::frameOf;
 
 /// Keys of all samples, [row][x < pitch][slot], of pixels x < width (the padding stays empty).
 std::vector<std::uint64_t> cover(const World& world, const Vertices& vertices, const sd_frame& frame,

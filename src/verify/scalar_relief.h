@@ -1,10 +1,10 @@
-// The scalar twin of kernels/relief.h: normals bent by a texture.
+// What kernels/relief.h computes, scalar: normals bent by a texture.
 #pragma once
 
-#include "kernels/twin_surface.h"
-#include "kernels/twin_texels.h"
+#include "verify/scalar_surface.h"
+#include "verify/scalar_texels.h"
 
-namespace spectrad::twin {
+namespace spectrad::scalar {
 
 template <typename Real>
 VectorOf<Real> mixed3(VectorOf<Real> a, Real x, VectorOf<Real> b, Real y) {
@@ -12,10 +12,10 @@ VectorOf<Real> mixed3(VectorOf<Real> a, Real x, VectorOf<Real> b, Real y) {
 }
 
 /// A normal map or a bump map on the surface.
-template <typename Real>
-void bend(SurfaceOf<Real>& s, const World& world, const Vertices& vertices, std::uint32_t triangle,
+template <typename Real, typename Stored>
+void bend(SurfaceOf<Real>& s, const World& world, const VerticesOf<Stored>& vertices, std::uint32_t triangle,
           const sd_texture& t, Real samples, bool baked) {
-    const auto corner = [&](const std::vector<float>& of, size_t each, size_t k, size_t i) {
+    const auto corner = [&](const auto& of, size_t each, size_t k, size_t i) {
         return Real(of[each * size_t{world.index[3 * size_t{triangle} + k]} + i]);
     };
     const auto edge = [&](size_t k) {
@@ -57,4 +57,4 @@ void bend(SurfaceOf<Real>& s, const World& world, const Vertices& vertices, std:
     if (!world.tangent.empty()) orient(s, s.tangent);
 }
 
-}  // namespace spectrad::twin
+}  // namespace spectrad::scalar

@@ -1,13 +1,14 @@
-// The scalar twin of kernels/surface.h: vectors, and the place on a triangle that a sample sees.
+// What kernels/surface.h computes, scalar, in float (the kernels' twin) or double (the reference): vectors,
+// and the place on a triangle that a sample sees.
 #pragma once
 
-#include "kernels/twin.h"
+#include "verify/scalar_geometry.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace spectrad::twin {
+namespace spectrad::scalar {
 
 template <typename Real>
 struct VectorOf {
@@ -57,14 +58,15 @@ void orient(SurfaceOf<Real>& s, VectorOf<Real> along) {
     s.bitangent = crossed(s.normal, s.tangent);
 }
 
-template <typename Real>
-SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd_frame& frame,
+/// Stored: what the vertices are kept in.
+template <typename Real, typename Stored>
+SurfaceOf<Real> surfaceAt(const World& world, const VerticesOf<Stored>& vertices, const sd_frame& frame,
                           std::uint32_t triangle, Real x, Real y) {
-    const auto corners = [&](const std::vector<float>& of, size_t each) {
+    const auto corners = [&](const auto& of, size_t each) {
         std::array<std::array<Real, 3>, 3> all{};
         for (size_t k = 0; k < 3; ++k)
-            std::copy_n(of.data() + each * size_t{world.index[3 * size_t{triangle} + k]}, each,
-                        all[k].data());
+            for (size_t i = 0; i < each; ++i)
+                all[k][i] = static_cast<Real>(of[each * size_t{world.index[3 * size_t{triangle} + k]} + i]);
         return all;
     };
     const auto p = corners(vertices.camera, 3), n = corners(vertices.normal, 3);
@@ -144,4 +146,4 @@ SurfaceOf<Real> surfaceAt(const World& world, const Vertices& vertices, const sd
     return s;
 }
 
-}  // namespace spectrad::twin
+}  // namespace spectrad::scalar

@@ -1,4 +1,4 @@
-// Textures in the twins: taps, filters and pyramids in the kernels' arithmetic.
+// What kernels/texels.h computes, scalar: taps, filters and pyramids in the kernels' arithmetic.
 #pragma once
 
 #include "render/world.h"
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace spectrad::twin {
+namespace spectrad::scalar {
 
 /// One band of one level of a texture at the surface's coordinates.
 template <typename Real, typename Surface>
@@ -69,4 +69,4 @@ Real texel(const World& world, const sd_texture& t, const Surface& s, Real sampl
                     value);
 }
 
-}  // namespace spectrad::twin
+}  // namespace spectrad::scalar

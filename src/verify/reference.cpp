@@ -1,0 +1,127 @@
+#include "verify/reference.h"
+
+#include "colour/observe.h"
+#include "render/passes.h"
+#include "spectrum/library.h"
+#include "verify/scalar_shade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace spectrad {
+
+Wavelengths referenceWavelengths(const Wavelengths& grid) {
+    return regularWavelengths(std::min(360.0, std::floor(grid.nm.front())),
+                              std::max(830.0, std::ceil(grid.nm.back())), 1, {});
+}
+
+namespace {
+
+template <typename T>
+bool sameBytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+bool sameLobes(const World& a, const World& b) {
+    return sameBytes(a.materials, b.materials) && sameBytes(a.lobes, b.lobes) &&
+           sameBytes(a.tables, b.tables) && sameBytes(a.lights, b.lights) &&
+           sameBytes(a.textures, b.textures) && sameBytes(a.texels, b.texels);
+}
+
+void requireJudgeable(const Scene& scene, const Plan& plan, const Pass* target) {
+    const auto refuse = [&](const std::string& what) {
+        throw InputError(scene.file + ": " + what + " cannot be certified (radiance of one camera can)");
+    };
+    if (plan.as != PassKind::radiance)
+        refuse("a pass as " + std::string(plan.as == PassKind::reflectance     ? "reflectance"
+                                          : plan.as == PassKind::transmittance ? "transmittance"
+                                                                               : "irradiance"));
+    if (plan.faces != 1) refuse("a camera of type cube");
+    if (target && target->screen) refuse("a display's picture");
+}
+
+}  // namespace
+
+Reference::Reference(const Scene& scene, const RenderSettings& settings, const Wavelengths& grid,
+                     const Detector& observer, const Library& library, const Device& device) {
+    if (!observer.tristimulus)
+        throw InputError("observer '" + observer.name + "' has no X, Y, Z: colour differences need them");
+    const Eye eye{observer, towardsXyz(observer, observer)};
+    RenderSettings finest = settings;
+    finest.samples = referenceSamples;
+    finest.wavelengths = referenceWavelengths(grid);
+    finest.projection.reset();
+    finest.exact = &observer;
+    finest.eye = &eye;
+    RenderSettings asked = finest;
+    asked.wavelengths = grid;
+    Notes unheard;  // the image's own plan has said it all
+    const auto planned = [&](const RenderSettings& wanted) {
+        PassTextures passes(scene, library, device, finest, unheard);
+        const Pass* target = passes.graph().back().shot.pass;
+        taken_.clear();
+        for (const GraphNode& node : passes.graph())
+            if (&node != &passes.graph().back())
+                taken_.push_back("pass '" + (node.shot.pass ? node.shot.pass->name : std::string()) +
+                                 "' as the renderer makes it");
+        Plan plan = makePlan(scene, wanted, library, passes, unheard);
+        requireJudgeable(scene, plan, target);
+        plan.samples = referenceSamples;
+        return plan;
+    };
+    wide_ = planned(finest);
+    own_ = planned(asked);
+    sameLobes_ = sameLobes(wide_.world, own_.world);
+    frame_ = scalar::frameOf(wide_);
+    vertices_ = scalar::transform<double>(wide_.world, frame_);
+}
+
+void Reference::shadePixel(const Plan& plan, const sd_frame& frame, const PixelPlace& place,
+                           const std::uint32_t* seen, std::vector<double>& g) const {
+    static const SamplePattern pattern = samplePattern(referenceSamples);
+    g.assign(plan.terms.count(), 0.0);
+    const World& world = plan.world;
+    for (size_t k = 0; k < static_cast<size_t>(referenceSamples); ++k) {
+        const double x = place.x * SD_SUBPIXEL - frame.width * (SD_SUBPIXEL / 2) + pattern.x[k],
+                     y = place.y * SD_SUBPIXEL - frame.height * (SD_SUBPIXEL / 2) + pattern.y[k];
+        const sd_material& material =
+            world.materials[seen[k] == scalar::noTriangle ? 0 : world.triangleMaterial[seen[k]]];
+        const auto add = [&](size_t, std::uint32_t term, double value) {
+            g[material.first_term + term] += value;
+        };
+        scalar::shadeSample<double>(plan, vertices_, frame, material, seen[k], x, y, add);
+    }
+    for (double& value : g)
+        value /= referenceSamples;
+}
+
+std::vector<ReferencePixel> Reference::at(std::span<const PixelPlace> places,
+                                          const Progress& progress) const {
+    constexpr size_t chunk = 4096;  // pixels whose samples are kept at once
+    const SamplePattern pattern = samplePattern(referenceSamples);
+    std::vector<ReferencePixel> out(places.size());
+    std::vector<double> g;
+    for (size_t first = 0; first < places.size(); first += chunk) {
+        const auto some = places.subspan(first, std::min(chunk, places.size() - first));
+        const std::vector<std::uint32_t> seen = trianglesSeen(wide_.world, vertices_, frame_, pattern, some);
+        for (size_t i = 0; i < some.size(); ++i) {
+            const std::uint32_t* samples = seen.data() + i * pattern.x.size();
+            ReferencePixel& pixel = out[first + i];
+            shadePixel(wide_, frame_, some[i], samples, g);
+            for (size_t t = 0; t < g.size(); ++t)
+                for (size_t c = 0; c < 3 && g[t] != 0; ++c)
+                    pixel.xyz[c] += g[t] * wide_.terms.exactChannels[3 * t + c];
+            if (!sameLobes_) shadePixel(own_, frame_, some[i], samples, g);
+            const size_t bands = own_.terms.bands;
+            pixel.bands.assign(bands, 0.0);
+            for (size_t t = 0; t < g.size(); ++t)
+                for (size_t b = 0; b < bands && g[t] != 0; ++b)
+                    pixel.bands[b] += g[t] * own_.terms.exactSpectra[t * bands + b];
+        }
+        if (progress) progress(static_cast<double>(first + some.size()) / static_cast<double>(places.size()));
+    }
+    return out;
+}
+
+}  // namespace spectrad

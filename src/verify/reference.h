@@ -1,0 +1,56 @@
+// The reference: single pixels of a scene, scalar, in double precision, with the spectra on their own
+// samples. It shares neither kernels nor float arithmetic with the renderer: what triangles a sample sees,
+// where it lies, every cosine and lobe is computed anew. What it takes over is what the scene means: its
+// triangles, lights and textures, and the factoring into terms (docs/design.md, "Certificates").
+#pragma once
+
+#include "colour/colour.h"
+#include "colour/detector.h"
+#include "opencl/device.h"
+#include "render/plan.h"
+#include "verify/visibility.h"
+
+namespace spectrad {
+
+/// Samples a pixel of the reference: as many as an image can have.
+inline constexpr int referenceSamples = maxSamples;
+/// Wavelengths that passes of a reference are rendered at: every nanometre of the visible and of `grid`.
+[[nodiscard]] Wavelengths referenceWavelengths(const Wavelengths& grid);
+
+struct ReferencePixel {
+    Triple xyz{};               ///< of the exact spectrum, absolute; bands do not enter
+    std::vector<double> bands;  ///< what the image's bands would be
+};
+
+class Reference {
+  public:
+    /// `settings`: what chose the image that is judged; its grid, samples and shortcuts do not count. `grid`:
+    /// the image's. Throws InputError that names what cannot be judged: only radiance seen by one camera can,
+    /// by an observer with X, Y, Z.
+    Reference(const Scene& scene, const RenderSettings& settings, const Wavelengths& grid,
+              const Detector& observer, const Library& library, const Device& device);
+
+    [[nodiscard]] int width() const { return wide_.view.width; }
+    [[nodiscard]] int height() const { return wide_.view.height; }
+    /// `places` ascend by y, then x.
+    [[nodiscard]] std::vector<ReferencePixel> at(std::span<const PixelPlace> places,
+                                                 const Progress& progress = {}) const;
+    /// What it takes from the renderer instead of computing it itself, one line each: passes.
+    [[nodiscard]] const std::vector<std::string>& taken() const { return taken_; }
+    /// The name of the scene's first light and its X Y Z at Y = 1 for the observer; "E" without light.
+    [[nodiscard]] const std::string& whiteName() const { return wide_.whiteName; }
+    [[nodiscard]] const Triple& white() const { return wide_.white; }
+
+  private:
+    void shadePixel(const Plan& plan, const sd_frame& frame, const PixelPlace& place,
+                    const std::uint32_t* seen, std::vector<double>& g) const;
+
+    Plan wide_;       ///< over all that an eye sees: its exact channels count
+    Plan own_;        ///< on the image's grid: its bands count
+    bool sameLobes_;  ///< both plans have the same factors g
+    sd_frame frame_;
+    scalar::VerticesOf<double> vertices_;
+    std::vector<std::string> taken_;
+};
+
+}  // namespace spectrad

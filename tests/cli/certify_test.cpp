@@ -1,0 +1,107 @@
+// render --verify and certify: what a script may rely on.
+#include "base/error.h"
+#include "cli/support.h"
+
+using cli::Folder;
+using cli::requireError;
+using cli::run;
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* ball = R"(<scene version="1">
+  <wavelengths from="380" to="780" step="10"/>
+  <material name="ink"><diffuse reflectance="ink.csv"/></material>
+  <node><sphere radius="1" material="ink"/></node>
+  <light name="lamp" type="directional" direction="0 -1 -1" spectrum="illuminants/FL11" illuminance="500 lx"/>
+  <camera name="eye" look-from="0 0 4" look-at="0 0 0" size="48x40"/>
+</scene>
+)";
+constexpr const char* ink = "wavelength_nm,reflectance\n380,0.2\n780,0.7\n";
+
+void checkCertificate(const json& c) {
+    CHECK(c.at("pixels") == 1000);
+    CHECK(c.at("of") == 48 * 40);
+    CHECK(c.at("seed") == 1);
+    CHECK(c.at("confidence") == 0.99);
+    CHECK(c.at("observer") == "cie1931-2");
+    CHECK(c.at("white").at("name") == "illuminants/FL11");
+    const json& d = c.at("deltae00");
+    for (const char* key : {"mean", "p95", "p99"}) {
+        CHECK(d.at(key).at("value") >= d.at(key).at("low"));
+        CHECK(d.at(key).at("value") <= d.at(key).at("high"));
+    }
+    CHECK(d.at("max").at("found") >= d.at("p99").at("value"));
+    CHECK(c.at("band_relative").at("p99").at("value").is_number());
+}
+
+}  // namespace
+
+TEST_CASE("--verify writes what it found into the file and prints it; the pixels stay the same") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    folder.write("ball.xml", ball);
+    folder.write("ink.csv", ink);
+    const auto plain = run(folder, {"render", "ball.xml", "-o", "plain.exr", "-q"});
+    REQUIRE(plain.code == 0);
+    const auto outcome = run(folder, {"render", "ball.xml", "--verify", "-o", "sure.exr", "--json"});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    checkCertificate(outcome.json().at("certificate"));
+    spectrad::Notes notes;
+    const auto a = spectrad::readCube(folder / "plain.exr", notes),
+               b = spectrad::readCube(folder / "sure.exr", notes);
+    CHECK(a.values == b.values);
+    for (const char* key :
+         {"verifyPixels", "verifyConfidence", "verifyObserver", "verifyWhite", "verifyDeltaE00Mean",
+          "verifyDeltaE00P95", "verifyDeltaE00P99", "verifyDeltaE00Max", "verifyBandError"}) {
+        CHECK(b.info.attributes.contains(key));
+        CHECK_FALSE(a.info.attributes.contains(key));
+    }
+    CHECK(run(folder, {"render", "ball.xml", "--verify=100%", "-o", "all.exr", "--json"})
+              .json()
+              .at("certificate")
+              .at("pixels") == 48 * 40);
+    requireError(run(folder, {"render", "ball.xml", "--verify=0%"}), 2, "--verify");
+}
+
+TEST_CASE("certify finds later what --verify found, also with the options that the image was rendered with") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    folder.write("ball.xml", ball);
+    folder.write("ink.csv", ink);
+    const auto rendered = run(folder, {"render", "ball.xml", "--verify", "-o", "a.exr", "--set",
+                                       "lamp.illuminance=900 lx", "--projection", "point", "--json"});
+    REQUIRE(rendered.code == 0);
+    const auto later = run(folder, {"certify", "a.exr", "ball.xml", "--json"});
+    INFO(later.err);
+    REQUIRE(later.code == 0);
+    const json found = later.json();
+    checkCertificate(found);
+    CHECK(found.at("changed").empty());
+    CHECK(found.at("deltae00") == rendered.json().at("certificate").at("deltae00"));
+    CHECK(run(folder, {"certify", "a.exr", "ball.xml", "--tolerance", "50"}).code == 0);
+    const auto beyond = run(folder, {"certify", "a.exr", "ball.xml", "--tolerance", "0.01", "--json"});
+    CHECK(beyond.code == 1);
+    CHECK(beyond.json().at("tolerance").at("verdict") == "refuted");
+}
+
+TEST_CASE("certify notices a scene or a spectrum that has changed since, and names it") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    folder.write("ball.xml", ball);
+    folder.write("ink.csv", ink);
+    REQUIRE(run(folder, {"render", "ball.xml", "-o", "a.exr", "-q"}).code == 0);
+    folder.write("ink.csv", std::string(ink) + "800,0.7\n");
+    const auto spectrum = run(folder, {"certify", "a.exr", "ball.xml", "--json"});
+    CHECK(spectrum.code == 1);
+    REQUIRE(spectrum.json().at("changed").size() == 1);
+    CHECK(spectrum.err.find("'ink.csv' has changed") != std::string::npos);
+    folder.write("ink.csv", ink);
+    folder.write("ball.xml", std::string(ball) + "<!-- -->\n");
+    const auto scene = run(folder, {"certify", "a.exr", "ball.xml"});
+    CHECK(scene.code == 1);
+    CHECK(scene.err.find("'ball.xml' has changed") != std::string::npos);
+    requireError(run(folder, {"certify", "missing.exr", "ball.xml"}), 1, "missing.exr");
+    requireError(run(folder, {"certify", "a.exr", "ball.xml", "--tolerance", "red"}), 2, "--tolerance");
+}
