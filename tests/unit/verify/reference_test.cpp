@@ -1,5 +1,5 @@
-#include "unit/verify/judged_scene.h"
 #include "spectrum/projection.h"
+#include "unit/verify/judged_scene.h"
 
 #include <cmath>
 #include <numbers>
