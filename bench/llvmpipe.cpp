@@ -16,17 +16,32 @@ namespace {
 // z: 1 at the near plane 0.1 m, −1 far away; only the order counts.
 constexpr const char* vertexShader = R"(#version 330
 uniform vec2 slope;
+uniform mat4 camera;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 colour;
+layout(location = 2) in vec3 normal;
 flat out vec4 shade;
+out vec3 place;
+out vec3 upright;
 void main() {
     shade = colour;
-    gl_Position = vec4(position.xy * slope, -position.z - 0.2, -position.z);
+    place = (camera * vec4(position, 1.0)).xyz;
+    upright = mat3(camera) * normal;
+    gl_Position = vec4(place.xy * slope, -place.z - 0.2, -place.z);
 })";
-constexpr const char* fragmentShader = R"(#version 330
+constexpr const char* flatShader = R"(#version 330
 flat in vec4 shade;
 layout(location = 0) out vec4 colour;
 void main() { colour = shade; })";
+constexpr const char* litShader = R"(#version 330
+flat in vec4 shade;
+in vec3 place;
+in vec3 upright;
+layout(location = 0) out vec4 colour;
+void main() {
+    float facing = abs(dot(normalize(upright), normalize(place)));
+    colour = vec4(shade.rgb * (facing * 16.0 / dot(place, place)), 1.0);
+})";
 
 GLuint compiled(GLenum kind, const char* text) {
     const GLuint shader = glCreateShader(kind);
@@ -54,6 +69,7 @@ struct Llvmpipe::Body {
     GLuint frame = 0;
     int width = 0, height = 0, samples = 1;
     GLsizei indices = 0;
+    GLint camera = -1;
 
     ~Body() {
         if (context) OSMesaDestroyContext(context);
@@ -83,7 +99,7 @@ GLuint Llvmpipe::Body::makeFrame(int count) const {
     return made;
 }
 
-Llvmpipe::Llvmpipe(const Plan& plan, int samples) : body_(std::make_unique<Body>()) {
+Llvmpipe::Llvmpipe(const Plan& plan, int samples, bool lit) : body_(std::make_unique<Body>()) {
     Body& body = *body_;
     const std::array<int, 9> attributes{OSMESA_FORMAT,
                                         OSMESA_RGBA,
@@ -115,17 +131,24 @@ Llvmpipe::Llvmpipe(const Plan& plan, int samples) : body_(std::make_unique<Body>
     fill(GL_ARRAY_BUFFER, colours);
     glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, 0, nullptr);
     glEnableVertexAttribArray(1);
+    if (lit) {
+        fill(GL_ARRAY_BUFFER, world.normal);
+        glVertexAttribPointer(2, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+        glEnableVertexAttribArray(2);
+    }
     fill(GL_ELEMENT_ARRAY_BUFFER, world.index);
     body.indices = static_cast<GLsizei>(world.index.size());
 
     const GLuint program = glCreateProgram();
     glAttachShader(program, compiled(GL_VERTEX_SHADER, vertexShader));
-    glAttachShader(program, compiled(GL_FRAGMENT_SHADER, fragmentShader));
+    glAttachShader(program, compiled(GL_FRAGMENT_SHADER, lit ? litShader : flatShader));
     glLinkProgram(program);
     glUseProgram(program);
     glUniform2f(glGetUniformLocation(program, "slope"),
                 static_cast<float>(2 * plan.view.pixelsPerSlope / body.width),
                 static_cast<float>(2 * plan.view.pixelsPerSlope / body.height));
+    body.camera = glGetUniformLocation(program, "camera");
+    look(Affine{});
     glViewport(0, 0, body.width, body.height);
     glEnable(GL_DEPTH_TEST);
     glClearColor(0, 0, 0, 0);
@@ -134,6 +157,16 @@ Llvmpipe::Llvmpipe(const Plan& plan, int samples) : body_(std::make_unique<Body>
 }
 
 Llvmpipe::~Llvmpipe() = default;
+
+void Llvmpipe::look(const Affine& toCamera) {
+    body_->bind();
+    std::array<float, 16> m{};
+    for (size_t row = 0; row < 3; ++row)
+        for (size_t column = 0; column < 4; ++column)
+            m[4 * column + row] = static_cast<float>(toCamera.m[4 * row + column]);
+    m[15] = 1;
+    glUniformMatrix4fv(body_->camera, 1, GL_FALSE, m.data());
+}
 
 void Llvmpipe::draw() {
     body_->bind();

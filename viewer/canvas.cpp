@@ -105,7 +105,13 @@ GLuint Canvas::makeTexture(bool smooth) {
 void Canvas::upload(GLuint texture, int width, int height, const std::uint32_t* pixels) {
     gl_.bindTexture(GL_TEXTURE_2D, texture);
     gl_.pixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl_.texImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    // A texture that keeps its size keeps its memory.
+    if (std::array<int, 2>& size = sizes_[texture]; size != std::array{width, height}) {
+        gl_.texImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+        size = {width, height};
+    } else {
+        gl_.texSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    }
     gl_.check("uploading a picture");
 }
 

@@ -4,7 +4,9 @@
 #include "image/picture.h"
 #include "viewer/gl.h"
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 struct ImDrawData;
@@ -40,6 +42,7 @@ class Canvas {
     GLuint program_ = 0, array_ = 0, vertices_ = 0, indices_ = 0;
     GLint scale_ = -1, zebra_ = -1;
     std::vector<GLuint> textures_;
+    std::map<GLuint, std::array<int, 2>> sizes_;
     int width_ = 0, height_ = 0;
 };
 
