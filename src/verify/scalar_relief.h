@@ -53,7 +53,7 @@ void bend(SurfaceOf<Real>& s, const World& world, const VerticesOf<Stored>& vert
     bent = scaled(unit(bent), s.side);
     if (!baked) bent = unit(mixed3(bent, Real(1.0), s.view, -std::fmin(dot(bent, s.view), Real(0.0))));
     s.normal = bent;
-    s.cosView = std::fmax(dot(bent, s.view), Real(1e-5f));
+    s.cosView = std::fmax(dot(bent, s.view), Real(1e-6f));
     if (!world.tangent.empty()) orient(s, s.tangent);
 }
 
