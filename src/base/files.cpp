@@ -10,6 +10,8 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fstream>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace spectrad {
@@ -54,23 +56,69 @@ void removePendingFiles() noexcept {
         if (slot.live) ::unlink(slot.name.data());
 }
 
+namespace {
+
+/// "123-4": process and number of a pending file.
+bool isUnique(std::string_view text) {
+    const size_t dash = text.find('-');
+    const auto digits = [](std::string_view part) {
+        return !part.empty() && part.find_first_not_of("0123456789") == std::string_view::npos;
+    };
+    return dash != std::string_view::npos && digits(text.substr(0, dash)) && digits(text.substr(dash + 1));
+}
+
+/// Pending files of the target that no living process holds.
+void removeLeftOvers(const fs::path& folder, std::string_view prefix, std::string_view suffix) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (name.size() <= prefix.size() + suffix.size() || !name.starts_with(prefix) ||
+            !name.ends_with(suffix) ||
+            !isUnique(
+                std::string_view(name).substr(prefix.size(), name.size() - prefix.size() - suffix.size())))
+            continue;
+        const int file = ::open(entry.path().c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+        if (file < 0) continue;
+        if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(entry.path().c_str());
+        ::close(file);
+    }
+}
+
+}  // namespace
+
 PendingFile::PendingFile(fs::path target) : target_(std::move(target)) {
     std::error_code ignored;
     if (fs::is_directory(target_, ignored))
         throw MachineError("cannot write '" + target_.string() + "': it is a folder");
+    const std::string prefix = "." + target_.stem().string() + ".", suffix = target_.extension().string();
+    removeLeftOvers(target_.has_parent_path() ? target_.parent_path() : fs::path("."), prefix, suffix);
+    create(prefix, suffix);
+}
+
+void PendingFile::create(const std::string& prefix, const std::string& suffix) {
     const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
     static std::atomic<unsigned> counter{0};
-    const std::string unique = "." + target_.stem().string() + "." + std::to_string(::getpid()) + "-" +
-                               std::to_string(counter++) + target_.extension().string();
-    pending_ = folder / unique;
-    const int file = ::open(pending_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-    if (file < 0) throw MachineError("cannot write '" + target_.string() + "': " + std::strerror(errno));
-    ::close(file);
-    slot_ = claimSlot(pending_.string());
+    for (;;) {
+        pending_ = folder / (prefix + std::to_string(::getpid()) + "-" + std::to_string(counter++) + suffix);
+        slot_ = claimSlot(pending_.string());  // first, so that no signal falls between
+        lock_ = ::open(pending_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+        if (lock_ < 0) {
+            const int error = errno;
+            releaseSlot(slot_);
+            throw MachineError("cannot write '" + target_.string() + "': " + std::strerror(error));
+        }
+        // Another process may have taken it for a left-over before it was locked.
+        struct stat status {};
+        static_cast<void>(::flock(lock_, LOCK_EX | LOCK_NB));
+        if (::fstat(lock_, &status) != 0 || status.st_nlink > 0) return;
+        ::close(lock_);
+        releaseSlot(slot_);
+    }
 }
 
 PendingFile::~PendingFile() {
     if (!committed_) ::unlink(pending_.c_str());
+    ::close(lock_);
     releaseSlot(slot_);
 }
 

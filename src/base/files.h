@@ -10,7 +10,8 @@ namespace spectrad {
 
 /// Claims a hidden name beside `target`; commit() moves what was written there onto the target in one step.
 /// Unless committed, the destructor removes it, and what stood at the target stays untouched. A fatal signal
-/// removes it too (see removePendingFiles).
+/// removes it too (see removePendingFiles). What a process left that was killed (SIGKILL, a power cut) is
+/// removed by the next one that writes the same target: pending files are locked while their process lives.
 class PendingFile {
   public:
     /// Throws MachineError if the folder does not exist or cannot be written.
@@ -26,8 +27,10 @@ class PendingFile {
     void commit();
 
   private:
+    void create(const std::string& prefix, const std::string& suffix);
+
     std::filesystem::path target_, pending_;
-    int slot_ = -1;
+    int slot_ = -1, lock_ = -1;
     bool committed_ = false;
 };
 

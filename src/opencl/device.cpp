@@ -3,7 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <filesystem>
+
 namespace spectrad {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -32,12 +37,19 @@ DeviceInfo describe(const cl::Platform& platform, const cl::Device& device, int 
     return info;
 }
 
-std::vector<Found> findDevices() {
+/// `failure`: what a driver answered instead of its devices, if one did not answer as it should.
+std::vector<Found> findDevices(std::string* failure = nullptr) {
     std::vector<Found> found;
+    const auto note = [&](const cl::Error& error) {
+        constexpr int noPlatform = -1001;  // CL_PLATFORM_NOT_FOUND_KHR of the loader
+        if (failure && failure->empty() && error.err() != noPlatform && error.err() != CL_DEVICE_NOT_FOUND)
+            *failure = fmt::format("{} in {}", clErrorName(error.err()), error.what());
+    };
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);
-    } catch (const cl::Error&) {
+    } catch (const cl::Error& error) {
+        note(error);
         return found;  // no platform at all is an error in some loaders, an empty list in others
     }
     for (const cl::Platform& platform : platforms) {
@@ -47,11 +59,36 @@ std::vector<Found> findDevices() {
             for (const cl::Device& device : devices)
                 found.push_back(
                     {platform, device, describe(platform, device, static_cast<int>(found.size()))});
-        } catch (const cl::Error&) {
+        } catch (const cl::Error& error) {
+            note(error);
             continue;  // a platform without devices
         }
     }
     return found;
+}
+
+/// Why there may be none. PoCL does not start without a folder for its own cache, and does not say so.
+std::string whyNone(const std::string& failure) {
+    if (!failure.empty()) return "no OpenCL device: a driver failed with " + failure;
+    const char* own = std::getenv("POCL_CACHE_DIR");
+    const char* cache = std::getenv("XDG_CACHE_HOME");
+    const char* home = std::getenv("HOME");
+    fs::path folder;
+    if (own && *own)
+        folder = own;
+    else if (cache && *cache)
+        folder = cache;
+    else if (home && *home)
+        folder = fs::path(home) / ".cache";
+    std::error_code error;
+    if (!folder.empty()) fs::create_directories(folder, error);
+    if (error)
+        return fmt::format(
+            "no OpenCL device: PoCL does not start without a folder for its cache, and '{}' cannot be made "
+            "({}); "
+            "POCL_CACHE_DIR or XDG_CACHE_HOME names another",
+            folder.string(), error.message());
+    return "no OpenCL device: install an OpenCL driver (on Debian: apt-get install pocl-opencl-icd)";
 }
 
 }  // namespace
@@ -64,10 +101,9 @@ std::vector<DeviceInfo> listDevices() {
 }
 
 Device Device::open(std::optional<int> number) {
-    const std::vector<Found> found = findDevices();
-    if (found.empty())
-        throw MachineError(
-            "no OpenCL device: install an OpenCL driver (on Debian: apt-get install pocl-opencl-icd)");
+    std::string failure;
+    const std::vector<Found> found = findDevices(&failure);
+    if (found.empty()) throw MachineError(whyNone(failure));
     const Found* chosen = &found.front();
     if (number) {
         if (*number < 0 || static_cast<size_t>(*number) >= found.size())
@@ -91,8 +127,8 @@ Device Device::open(std::optional<int> number) {
     Device device;
     device.body_ = std::make_shared<Body>();
     device.body_->info = chosen->info;
-    device.body_->device = chosen->device;
     checked(*device.body_, "open", [&] {
+        device.body_->device = chosen->device;
         device.body_->context = cl::Context(chosen->device);
         device.body_->queue = cl::CommandQueue(device.body_->context, chosen->device);
     });

@@ -69,10 +69,12 @@ cl::Buffer allocate(const Device& device, size_t bytes, const char* what);
 template <typename T>
 void DeviceArray<T>::reserve(const Device& device, size_t count, const char* what) {
     if (count <= capacity_ && capacity_ > 0) return;
-    buffer_ = cl::Buffer();  // give the old one back first
     capacity_ = 0;
     const size_t wanted = count > 0 ? count : 1;
-    buffer_ = allocate(device, wanted * sizeof(T), what);
+    checked(device.body(), what, [&] {
+        buffer_ = cl::Buffer();  // give the old one back first
+        buffer_ = allocate(device, wanted * sizeof(T), what);
+    });
     capacity_ = wanted;
 }
 

@@ -127,7 +127,7 @@ Program::Program(const Device& device, const std::vector<std::string>& files,
     : device_(device) {
     const Device::Body& body = device.body();
     const std::string text = source(files, defines);
-    const std::string options = buildOptions(body);
+    const std::string options = checked(body, "compiling kernels", [&] { return buildOptions(body); });
     const DeviceInfo& info = device.info();
     fs::path cached;
     if (!cacheFolder.empty()) {
@@ -142,7 +142,8 @@ Program::Program(const Device& device, const std::vector<std::string>& files,
     } catch (const cl::Error& error) {
         std::string log;
         if (error.err() == CL_BUILD_PROGRAM_FAILURE)
-            log = program_.getBuildInfo<CL_PROGRAM_BUILD_LOG>(body.device);
+            log = checked(body, "compiling kernels",
+                          [&] { return program_.getBuildInfo<CL_PROGRAM_BUILD_LOG>(body.device); });
         throw MachineError(fmt::format("OpenCL: building kernels failed with {} on {}{}{}",
                                        clErrorName(error.err()), info.name, log.empty() ? "" : ":\n", log));
     }

@@ -112,7 +112,7 @@ class MappedFloats {
 
   private:
     Device device_;
-    cl::Buffer buffer_;
+    const cl::Buffer& buffer_;  ///< outlives this: a copy would be a call that can fail
     float* data_ = nullptr;
 };
 

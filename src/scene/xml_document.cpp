@@ -50,8 +50,8 @@ XmlDocument::XmlDocument(std::string_view bytes, std::string file) : file_(std::
 }
 
 void XmlDocument::parse(std::string_view text) {
-    const pugi::xml_parse_result result =
-        document_.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
+    const pugi::xml_parse_result result = document_.load_buffer(
+        text.data(), text.size(), pugi::parse_default | pugi::parse_fragment, pugi::encoding_utf8);
     if (result.status == pugi::status_end_element_mismatch || result.status == pugi::status_bad_end_element) {
         if (const auto complaint = unmatchedTag(text))
             throw InputError(at(complaint->offset), "not well-formed: " + complaint->message);
@@ -59,6 +59,13 @@ void XmlDocument::parse(std::string_view text) {
     if (!result)
         throw InputError(at(static_cast<size_t>(std::max<ptrdiff_t>(result.offset, 0))),
                          wellFormednessMessage(result.status));
+    // Kept by parse_fragment only to be refused.
+    for (pugi::xml_node node = document_.first_child(); node; node = node.next_sibling())
+        if (node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata)
+            throw InputError(at(static_cast<size_t>(std::max<ptrdiff_t>(node.offset_debug(), 0))),
+                             "not well-formed: text outside of the root element");
+    if (!document_.document_element())
+        throw InputError(at(0), wellFormednessMessage(pugi::status_no_document_element));
     for (pugi::xml_node node = root().next_sibling(); node; node = node.next_sibling())
         if (node.type() == pugi::node_element)
             throw InputError(where(node),

@@ -106,6 +106,7 @@ class Bench:
     def start(self, *arguments, environment=None, preexec=None):
         full = dict(os.environ)
         full.update(environment or {})
+        full = {name: value for name, value in full.items() if value is not None}
         process = subprocess.Popen([self.program, *arguments], cwd=self.folder, env=full, stdin=subprocess.DEVNULL,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=preexec)
         return Running(process)
@@ -183,8 +184,8 @@ def have_device(program):
         return False
 
 
-def main(modules=(), device=True):
-    """Runs the registered cases: FILE.py PROGRAM [--heavy] [--report FILE.json] [--only TEXT]."""
+def main(suite):
+    """Runs the registered cases by the command line of run.py."""
     arguments = sys.argv[1:]
     def option(name):
         if name not in arguments:
@@ -198,7 +199,7 @@ def main(modules=(), device=True):
     arguments = [word for word in arguments if word != '--heavy']
     program = os.path.abspath(arguments[0])
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    if device and not have_device(program):
+    if not have_device(program):
         print('skipped: no OpenCL device')
         return 77
     rows, failures = [], 0
@@ -226,6 +227,6 @@ def main(modules=(), device=True):
                 print('    ' + remark, flush=True)
     if report:
         with open(report, 'w', encoding='utf-8') as file:
-            json.dump({'suite': os.path.basename(sys.argv[0]), 'cases': rows}, file, indent=1)
+            json.dump({'suite': suite, 'cases': rows}, file, indent=1)
     print(f'{sum(row["tried"] for row in rows)} runs, {failures} of {len(rows)} promises broken')
     return 1 if failures else 0

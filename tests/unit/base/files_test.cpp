@@ -65,6 +65,28 @@ TEST_CASE("A process that dies of a signal removes what it had pending") {
     CHECK(WEXITSTATUS(status) == 0);
 }
 
+TEST_CASE(
+    "What a killed process left is removed by the next one that writes the same file, what a living one "
+    "holds is not") {
+    const TemporaryFolder folder;
+    const fs::path target = folder.path() / "image.exr";
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        const PendingFile pending(target);
+        ::raise(SIGKILL);
+    }
+    ::waitpid(child, nullptr, 0);
+    CHECK(filesIn(folder.path()) == 1);
+    writeFile(folder.path() / ".image.notes-1.exr", "not ours");
+    {
+        const PendingFile first(target), second(target);
+        CHECK(filesIn(folder.path()) == 3);  // the foreign file, and both of this process
+        CHECK(fs::exists(first.path()));
+    }
+    CHECK(filesIn(folder.path()) == 1);
+}
+
 TEST_CASE("A place that cannot be written is the machine's error, a file that cannot be read the input's") {
     const TemporaryFolder folder;
     CHECK_THROWS_AS(PendingFile(folder.path() / "absent/out.exr"), MachineError);
