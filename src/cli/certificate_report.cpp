@@ -104,6 +104,60 @@ std::map<std::string, std::string> attributesOf(const Certificate& c) {
                                             within(c.bands.p99), rounded(c.bands.largest, 3))}};
 }
 
+namespace {
+
+std::string reachedOf(const Chosen& chosen, const Tolerance& tolerance) {
+    return tolerance.radiance ? rounded(100 * chosen.reached, 3) + " %" : rounded(chosen.reached, 3);
+}
+
+}  // namespace
+
+std::string inWords(const Chosen& chosen, const std::string& asked) {
+    const Tolerance tolerance = parseTolerance(asked);
+    std::string text = fmt::format("tolerance           {}: {} {}, tried at {} x {} pixels\n",
+                                   tolerance.words(), chosen.met ? "reached" : "not met, reached",
+                                   reachedOf(chosen, tolerance), chosen.width, chosen.height);
+    for (const Choice& choice : chosen.choices)
+        text += fmt::format("  {:<17} {}\n", choice.what, choice.why);
+    return text;
+}
+
+Json described(const Chosen& chosen, const std::string& asked, const std::string& observer) {
+    Json choices = Json::array();
+    for (const Choice& choice : chosen.choices)
+        choices.push_back({{"choice", choice.what}, {"why", choice.why}});
+    Json out{{"asked", asked}, {"met", chosen.met}, {"reached", chosen.reached}, {"observer", observer}};
+    if (!parseTolerance(asked).radiance)
+        out["white"] = {{"name", chosen.white.name}, {"XYZ", chosen.white.xyz}};
+    out.update({{"tried_at", {chosen.width, chosen.height}},
+                {"half", chosen.half},
+                {"schlick", chosen.schlick},
+                {"choices", choices}});
+    return out;
+}
+
+std::map<std::string, std::string> attributesOf(const Chosen& chosen, const std::string& asked) {
+    std::string choices;
+    for (const Choice& choice : chosen.choices)
+        choices += fmt::format("{}{} ({})", choices.empty() ? "" : "; ", choice.what, choice.why);
+    return {{"tolerance", fmt::format("{}: {} {}", parseTolerance(asked).words(),
+                                      chosen.met ? "reached" : "not met, reached",
+                                      reachedOf(chosen, parseTolerance(asked)))},
+            {"toleranceChoices", choices}};
+}
+
+ExitCode toleranceVerdict(const Chosen& chosen, const Certificate& certificate, const std::string& asked) {
+    const Tolerance tolerance = parseTolerance(asked);
+    if (!chosen.met)
+        printError(
+            fmt::format("no settings keep {}: reached {}", tolerance.words(), reachedOf(chosen, tolerance)));
+    else if (judged(certificate, tolerance) == Verdict::refuted)
+        printError(fmt::format("the certificate refutes {}", tolerance.words()));
+    else
+        return ExitCode::ok;
+    return ExitCode::input;
+}
+
 std::string sourcesOf(const Scene& scene) {
     std::string text;
     for (const std::string& file : scene.filesRead)

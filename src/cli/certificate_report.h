@@ -4,6 +4,7 @@
 #include "cli/console.h"
 #include "image/cube.h"
 #include "scene/scene.h"
+#include "study/chooser.h"
 #include "verify/tolerance.h"
 
 #include <map>
@@ -25,6 +26,14 @@ struct VerifyArguments {
 [[nodiscard]] Json described(const Certificate& certificate);
 /// What a file carries of its certificate.
 [[nodiscard]] std::map<std::string, std::string> attributesOf(const Certificate& certificate);
+
+/// What was chosen for a tolerance, as it was asked for.
+[[nodiscard]] std::string inWords(const Chosen& chosen, const std::string& asked);
+[[nodiscard]] Json described(const Chosen& chosen, const std::string& asked, const std::string& observer);
+[[nodiscard]] std::map<std::string, std::string> attributesOf(const Chosen& chosen, const std::string& asked);
+/// Exit code 1, with a line that says why, where no settings met it or the certificate refutes it.
+[[nodiscard]] ExitCode toleranceVerdict(const Chosen& chosen, const Certificate& certificate,
+                                        const std::string& asked);
 
 /// "a.xml 3fa9…, D65.csv 07b1…": every file that the scene read with its SHA-256, in that order.
 [[nodiscard]] std::string sourcesOf(const Scene& scene);

@@ -31,6 +31,7 @@ struct RenderArguments {
     SceneArguments scene;
     std::string output, preview, format, compression;
     VerifyArguments verify;  ///< no share: nothing is verified
+    std::string tolerance;
     bool half = false, json = false, quiet = false;
 };
 
@@ -83,6 +84,8 @@ std::string recordedCommand(const RenderArguments& arguments) {
     std::string text = "spectrad render " + arguments.scene.file + recorded(arguments.scene);
     if (!arguments.compression.empty()) text += " --compression " + arguments.compression;
     if (arguments.half) text += " --half";
+    if (!arguments.tolerance.empty())
+        text += " --tolerance " + arguments.tolerance + " --observer " + arguments.verify.observer;
     if (arguments.scene.restricted) text += " --restrict";
     return text;
 }
@@ -132,7 +135,7 @@ class Preview {
 };
 
 struct Seconds {
-    double load = 0, plan = 0, verify = 0, build = 0, render = 0, write = 0, total = 0;
+    double load = 0, choose = 0, plan = 0, verify = 0, build = 0, render = 0, write = 0, total = 0;
 };
 
 /// Seconds since the last call, or since construction.
@@ -230,15 +233,42 @@ void checkSaves(const std::vector<GraphNode>& graph, const Output& output) {
         }
 }
 
+Detector observerOf(const VerifyArguments& arguments, const Library& library) {
+    Notes unheard;
+    const SpectrumResolver resolver(library, {}, false, unheard);
+    return asUsage("--observer", [&] { return detectorFor(arguments.observer, resolver, {}); });
+}
+
+/// Settings for --tolerance; changes what is asked for to what was chosen.
+Chosen chooseSettings(const RenderArguments& arguments, Scene& scene, RenderSettings& settings,
+                      Output& output, const Library& library, const Device& device) {
+    ChooserSettings wanted;
+    wanted.tolerance = asUsage("--tolerance", [&] { return parseTolerance(arguments.tolerance); });
+    wanted.render = settings;
+    wanted.half = output.options.half;
+    wanted.mayHalf = !output.envi;
+    Notes unheard;
+    const Planner planner = [&](const Scene& asked, const RenderSettings& render) {
+        PassTextures passes(asked, library, device, render, unheard);
+        return makePlan(asked, render, library, passes, unheard);
+    };
+    ProgressBar bar("choosing", arguments.quiet);
+    Chosen chosen = choose(scene, wanted, observerOf(arguments.verify, library), library, device, planner,
+                           [&](double share) { bar.show(share); });
+    settings.wavelengths = chosen.wavelengths;
+    settings.projection.reset();
+    settings.samples = chosen.samples;
+    output.options.half = chosen.half;
+    if (chosen.schlick) scene = withSchlick(scene);
+    return chosen;
+}
+
 /// Renders the image once without writing it, for the pixels that are drawn: the file's header, which holds
 /// the certificate, comes first.
 Certificate verified(const VerifyArguments& arguments, const Scene& scene, const RenderSettings& settings,
                      const Plan& plan, const CubeInfo& info, bool half, const Library& library,
                      const Device& device, bool quiet) {
-    Notes unheard;
-    const SpectrumResolver resolver(library, {}, false, unheard);
-    const Detector observer =
-        asUsage("--observer", [&] { return detectorFor(arguments.observer, resolver, {}); });
+    const Detector observer = observerOf(arguments, library);
     const Reference reference(scene, settings, plan.wavelengths, observer, library, device);
     PixelSample sample(info, parseShare("--verify", arguments.share), parseSeed(arguments.seed), observer,
                        half);
@@ -254,19 +284,25 @@ ExitCode render(const RenderArguments& arguments) {
     Laps clock;
     Seconds seconds;
     Console console(arguments.quiet);
-    const RenderSettings settings = renderSettings(arguments.scene);
+    RenderSettings settings = renderSettings(arguments.scene);
     const std::optional<int> number = deviceNumber(arguments.scene.device);
-    const Output output = outputOf(arguments);
+    Output output = outputOf(arguments);
     // A device that is asked for is missed at once; that there is none at all, only when the scene is known
     // to be sound.
     std::optional<Device> device;
     if (number) device = Device::open(number);
 
     const Library library = Library::open();
-    const Scene scene =
+    const Scene asked =
         loadScene(arguments.scene.file, library, loadOptions(arguments.scene), console.notes());
+    Scene scene = asked;
     seconds.load = clock.lap();
     if (!device) device = Device::open(std::nullopt);
+    std::optional<Chosen> chosen;
+    if (!arguments.tolerance.empty()) {
+        chosen = chooseSettings(arguments, scene, settings, output, library, *device);
+        seconds.choose = clock.lap();
+    }
     PassTextures passes(scene, library, *device, settings, console.notes(),
                         [&](const Pass& pass, const Plan& made, const Cube& cube) {
                             CubeInfo about = cubeInfo(arguments, scene, made, *device);
@@ -280,12 +316,15 @@ ExitCode render(const RenderArguments& arguments) {
     seconds.plan = clock.lap();
     CubeInfo info = cubeInfo(arguments, scene, plan, *device);
     std::optional<Certificate> certificate;
-    if (!arguments.verify.share.empty()) {
-        certificate = verified(arguments.verify, scene, settings, plan, info, output.options.half, library,
-                               *device, arguments.quiet);
+    if (!arguments.verify.share.empty() || chosen) {
+        VerifyArguments how = arguments.verify;
+        if (how.share.empty()) how.share = "1%";
+        certificate = verified(how, asked, settings, plan, info, output.options.half, library, *device,
+                               arguments.quiet);
         info.attributes.merge(attributesOf(*certificate));
         seconds.verify = clock.lap();
     }
+    if (chosen) info.attributes.merge(attributesOf(*chosen, arguments.tolerance));
     std::vector<std::unique_ptr<CubeWriter>> writers;
     writers.push_back(openWriter(output, info, console.notes()));
     const Pass* target = passes.graph().back().shot.pass;
@@ -325,11 +364,17 @@ ExitCode render(const RenderArguments& arguments) {
             out["seconds"]["verify"] = seconds.verify;
             out["certificate"] = described(*certificate);
         }
+        if (chosen) {
+            out["seconds"]["choose"] = seconds.choose;
+            out["tolerance"] = described(*chosen, arguments.tolerance, arguments.verify.observer);
+        }
         printJson(out);
     } else if (!arguments.quiet) {
         printSummary(output, plan, seconds);
+        if (chosen) printText(inWords(*chosen, arguments.tolerance));
         if (certificate) printText(inWords(*certificate));
     }
+    if (chosen) return toleranceVerdict(*chosen, *certificate, arguments.tolerance);
     return ExitCode::ok;
 }
 
@@ -363,11 +408,18 @@ void addRender(CLI::App& app, Action& action) {
                    "samples, and write into the file how far the image is from that; --verify alone: 1%, at "
                    "least 1000 pixels")
         ->type_name("SHARE");
+    command
+        ->add_option(
+            "--tolerance", arguments->tolerance,
+            "choose the cheapest settings that keep the image within it, and certify it: 0.5 "
+            "(CIEDE2000 of 99 % of the pixels), max:0.5 (of all), 1%rad (radiance of the bands asked "
+            "for), max:1%rad; exit code 1 where nothing does")
+        ->type_name("T");
     command->add_option("--seed", arguments->verify.seed, "draws the pixels of --verify; default: 1")
         ->type_name("N");
     command
         ->add_option("--observer", arguments->verify.observer,
-                     "whose CIEDE2000 --verify states; default: cie1931-2")
+                     "whose CIEDE2000 --verify and --tolerance mean; default: cie1931-2")
         ->type_name("NAME|FILE");
     command->add_flag("--json", arguments->json,
                       "print a JSON object: sizes, seconds, peak_rss_bytes, the plan");

@@ -105,3 +105,38 @@ TEST_CASE("certify notices a scene or a spectrum that has changed since, and nam
     requireError(run(folder, {"certify", "missing.exr", "ball.xml"}), 1, "missing.exr");
     requireError(run(folder, {"certify", "a.exr", "ball.xml", "--tolerance", "red"}), 2, "--tolerance");
 }
+
+TEST_CASE("--tolerance chooses settings, says why, and certifies them; what nothing keeps ends with 1") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    folder.write("ball.xml", ball);
+    folder.write("ink.csv", ink);
+    const auto outcome = run(folder, {"render", "ball.xml", "--tolerance", "0.5", "-o", "a.exr", "--json"});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const json out = outcome.json();
+    CHECK(out.at("wavelengths_nm").size() < 41);
+    checkCertificate(out.at("certificate"));
+    const json& t = out.at("tolerance");
+    CHECK(t.at("asked") == "0.5");
+    CHECK(t.at("met") == true);
+    CHECK(t.at("reached") <= 0.5);
+    CHECK(t.at("white").at("name") == "illuminants/FL11");
+    CHECK(t.at("choices").size() >= 3);
+    for (const json& choice : t.at("choices"))
+        CHECK_FALSE(choice.at("why").get<std::string>().empty());
+    spectrad::Notes notes;
+    const auto info = spectrad::readCubeInfo(folder / "a.exr", notes);
+    CHECK(info.attributes.contains("tolerance"));
+    CHECK(info.attributes.contains("toleranceChoices"));
+    CHECK(run(folder, {"certify", "a.exr", "ball.xml", "--share", "100%", "--tolerance", "0.5"}).code == 0);
+
+    const auto asked = run(folder, {"render", "ball.xml", "--tolerance", "1%rad", "--wavelengths",
+                                    "400:700:20", "-o", "b.exr", "--json"});
+    REQUIRE(asked.code == 0);
+    CHECK(asked.json().at("wavelengths_nm").size() == 16);
+    const auto never = run(folder, {"render", "ball.xml", "--tolerance", "1e-9", "-o", "c.exr", "-q"});
+    CHECK(never.code == 1);
+    CHECK(never.err.find("no settings keep") != std::string::npos);
+    requireError(run(folder, {"render", "ball.xml", "--tolerance", "low"}), 2, "--tolerance");
+}
