@@ -80,6 +80,7 @@ void LiveImage::wear(Plan shading) {
     now.lights = std::move(then.lights);
     now.textures = std::move(then.textures);
     now.texels = std::move(then.texels);
+    now.resident = std::move(then.resident);
     plan_.terms = std::move(shading.terms);
     plan_.groups = shading.groups;
     plan_.features = std::move(shading.features);

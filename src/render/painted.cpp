@@ -169,10 +169,14 @@ const TermBuilder::Image& TermBuilder::spectralTexture(const TextureUse& use) {
                 use.where, fmt::format("{} has {}x{} pixels; six square faces, one below the other, are six "
                                        "times as high as wide",
                                        use.source, texture.width, texture.height));
-        if (use.role == TextureRole::radiance && texture.nm != grid_.nm) holdAboveZero(texture, use, notes_);
+        const bool otherBands = use.role == TextureRole::radiance && texture.nm != grid_.nm;
+        if (otherBands || use.filter == TextureFilter::mip) texture.fetch();
+        if (otherBands) holdAboveZero(texture, use, notes_);
         const int bands = static_cast<int>(texture.nm.size());
         image.number =
-            addTexels(world_, {texture.width, texture.height, bands, std::move(texture.texels)}, use);
+            texture.resident
+                ? addResident(world_, std::move(texture.resident), use)
+                : addTexels(world_, {texture.width, texture.height, bands, std::move(texture.texels)}, use);
         image.nm = std::move(texture.nm);
     }
     return image;

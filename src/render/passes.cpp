@@ -2,6 +2,7 @@
 
 #include "render/bake.h"
 #include "render/renderer.h"
+#include "render/resident.h"
 #include "render/shown.h"
 
 #include <fmt/format.h>
@@ -12,19 +13,34 @@
 
 namespace spectrad {
 
+namespace {
+
+/// What a node of the graph left for those after it: texels on the device, or a cube on the host.
+struct Rendered {
+    std::shared_ptr<const ResidentTexels> resident;
+    Cube cube;
+};
+
+}  // namespace
+
 struct PassTextures::Body {
     Device device;
     const Library& library;
     Notes& notes;
     Save save;
     std::vector<GraphNode> graph;
-    std::vector<std::optional<Cube>> cubes;  ///< of the graph's nodes
-    std::vector<size_t> waiting;             ///< users that a node still has
+    std::vector<std::optional<Rendered>> images;  ///< of the graph's nodes
+    std::vector<size_t> waiting;                  ///< users that a node still has
     bool rendered = false;
 
     /// Renders everything but the target.
     void renderNeeded();
     [[nodiscard]] Cube render(size_t node);
+    [[nodiscard]] bool staysOnDevice(size_t node) const;
+    [[nodiscard]] std::shared_ptr<const ResidentTexels> renderResident(size_t node);
+    /// Each face's plan in turn, rendered by `face`.
+    void renderFaces(size_t node, RenderSettings settings,
+                     const std::function<void(int face, Plan& plan)>& face);
     [[nodiscard]] Cube renderPlain(size_t node, Substitute substitute, bool oneBand, Plan* used = nullptr);
     [[nodiscard]] Cube divided(size_t node, Cube cube);
     [[nodiscard]] Cube uncovered(size_t node, Plan& used);
@@ -68,7 +84,7 @@ PassTextures::PassTextures(const Scene& scene, const Library& library, const Dev
     limitTo(device.info());
     for (const GraphNode& node : body_->graph)
         body_->waiting.push_back(node.users);
-    body_->cubes.resize(body_->graph.size());
+    body_->images.resize(body_->graph.size());
 }
 
 PassTextures::~PassTextures() = default;
@@ -91,10 +107,11 @@ void PassTextures::Body::renderNeeded() {
     if (rendered) return;
     rendered = true;
     for (size_t node = 0; node + 1 < graph.size(); ++node) {
-        cubes[node] = render(node);
+        images[node] =
+            staysOnDevice(node) ? Rendered{renderResident(node), {}} : Rendered{nullptr, render(node)};
         // What no later pass needs any more makes room.
         for (const GraphNode::Need& need : graph[node].needs)
-            if (need.node && --waiting[*need.node] == 0) cubes[*need.node].reset();
+            if (need.node && --waiting[*need.node] == 0) images[*need.node].reset();
     }
 }
 
@@ -103,8 +120,13 @@ SpectralTexture PassTextures::Body::texture(size_t user, const Pass& pass, const
     for (const GraphNode::Need& need : node.needs) {
         if (&node.shot.scene->passes[need.pass] != &pass) continue;
         SpectralTexture texture;
-        if (need.node) {
-            texture = textureFrom(*cubes[*need.node], use, notes);
+        if (need.node && images[*need.node]->resident) {
+            texture.resident = images[*need.node]->resident;
+            texture.width = texture.resident->width;
+            texture.height = texture.resident->height;
+            texture.nm = texture.resident->nm;
+        } else if (need.node) {
+            texture = textureFrom(images[*need.node]->cube, use, notes);
         } else {
             texture.width = texture.height = 1;
             texture.nm = node.grid.nm;
@@ -115,26 +137,56 @@ SpectralTexture PassTextures::Body::texture(size_t user, const Pass& pass, const
     throw InputError(use.where, "pass '" + pass.name + "' is not part of the render graph");
 }
 
-Cube PassTextures::Body::renderPlain(size_t number, Substitute substitute, bool oneBand, Plan* used) {
+void PassTextures::Body::renderFaces(size_t number, RenderSettings settings,
+                                     const std::function<void(int face, Plan& plan)>& face) {
     const GraphNode& node = graph[number];
-    RenderSettings settings = node.settings;
+    NodeTextures textures(*node.shot.scene, library, notes, [&](const Pass& pass, const TextureUse& use) {
+        return texture(number, pass, use);
+    });
+    textures.limitTo(device.info());
+    for (int side = 0, faces = 1; side < faces; ++side) {
+        settings.cubeFace = side;
+        Plan plan = makePlan(node.shot, settings, library, textures, notes);
+        faces = plan.faces;
+        face(side, plan);
+    }
+}
+
+/// Radiances that nobody but textures look at, small enough to stay beside another one and the strips.
+bool PassTextures::Body::staysOnDevice(size_t number) const {
+    const GraphNode& node = graph[number];
+    const Pass* pass = node.shot.pass;
+    if (!pass || pass->as != PassKind::radiance || pass->screen || node.settings.bake) return false;
+    if (save && !pass->save.empty() && node.generation + 1 == std::max(pass->repeat, 1)) return false;
+    const auto [width, height] = sizeOf(node.shot, node.settings);
+    const int faces = node.shot.scene->cameras[node.shot.camera].cube ? 6 : 1;
+    return TexelStage::fits(device.info(), node.grid.size(), width, faces * height);
+}
+
+std::shared_ptr<const ResidentTexels> PassTextures::Body::renderResident(size_t number) {
+    std::optional<TexelStage> stage;
+    renderFaces(number, graph[number].settings, [&](int face, Plan& plan) {
+        const int height = plan.view.height;
+        if (!stage) stage.emplace(device, plan.wavelengths, plan.view.width, height * plan.faces);
+        Renderer(device, plan).renderOnDevice([&](int row, int rows, const cl::Buffer& bands, int pitch) {
+            stage->add(bands, pitch, face * height + row, rows);
+        });
+    });
+    return stage->finish();
+}
+
+Cube PassTextures::Body::renderPlain(size_t number, Substitute substitute, bool oneBand, Plan* used) {
+    RenderSettings settings = graph[number].settings;
     settings.substitute = substitute;
     if (oneBand) {
         settings.wavelengths = Wavelengths{{550}, Projection::point, 5};
         settings.projection.reset();
     }
-    NodeTextures textures(*node.shot.scene, library, notes, [&](const Pass& pass, const TextureUse& use) {
-        return texture(number, pass, use);
-    });
-    textures.limitTo(device.info());
     Cube cube;
     cube.info.projectionStated = true;
-    for (int face = 0, faces = 1; face < faces; ++face) {
-        settings.cubeFace = face;
-        Plan plan = makePlan(node.shot, settings, library, textures, notes);
-        faces = plan.faces;
+    renderFaces(number, settings, [&](int face, Plan& plan) {
         cube.info.width = plan.view.width;
-        cube.info.height = plan.view.height * faces;
+        cube.info.height = plan.view.height * plan.faces;
         cube.info.wavelengths = plan.wavelengths;
         const size_t rowValues = plan.terms.bands * static_cast<size_t>(plan.view.width);
         cube.values.resize(rowValues * static_cast<size_t>(cube.info.height));
@@ -146,13 +198,13 @@ Cube PassTextures::Body::renderPlain(size_t number, Substitute substitute, bool 
                             top + static_cast<size_t>(first) * rowValues);
             });
         }
-        if (used && face + 1 == faces) {
+        if (used && face + 1 == plan.faces) {
             // What the image is called after; its geometry and textures are not needed any more.
             plan.world = {};
             plan.terms = {};
             *used = std::move(plan);
         }
-    }
+    });
     return cube;
 }
 

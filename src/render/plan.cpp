@@ -243,7 +243,8 @@ View viewOf(const Shot& shot, const RenderSettings& settings, const FlatScene& f
 
 /// A light of the colour of a pass: its mean over all pixels.
 Emitter withMeanOf(const Emitter& emitter, TextureLoader& textures) {
-    const SpectralTexture texture = textures.load(*emitter.texture);
+    SpectralTexture texture = textures.load(*emitter.texture);
+    texture.fetch();
     const size_t bands = texture.nm.size();
     std::vector<double> mean(bands, 0.0);
     for (size_t i = 0; i < texture.texels.size(); ++i)

@@ -25,6 +25,8 @@ struct Renderer::Body {
     }
 
     void deliver(int firstRow, int rows, const StripSink& sink);
+    /// Every strip, finished in `cube` and `preview`: done(first row, rows).
+    void strips(const std::function<void(int, int)>& done);
 
     Device device;
     const Plan& plan;
@@ -49,14 +51,26 @@ std::uint64_t Renderer::bytesPerStrip() const {
 }
 
 void Renderer::render(const StripSink& sink, const Progress& progress) {
-    const Stopwatch start;
     Body& body = *body_;
-    const int height = body.plan.view.height;
-    body.stages->transform();
-    int rows = body.memory.visibilityRows;
+    body.strips([&](int row, int rows) {
+        body.deliver(row, rows, sink);
+        if (progress) progress(static_cast<double>(row + rows) / body.plan.view.height);
+    });
+}
+
+void Renderer::renderOnDevice(const DeviceSink& sink) {
+    Body& body = *body_;
+    body.strips([&](int row, int rows) { sink(row, rows, body.cube.buffer(), body.stages->pitch()); });
+}
+
+void Renderer::Body::strips(const std::function<void(int, int)>& done) {
+    const Stopwatch start;
+    const int height = plan.view.height;
+    stages->transform();
+    int rows = memory.visibilityRows;
     for (int row = 0; row < height;) {
         const int count = std::min(rows, height - row);
-        if (!body.stages->light(row, count)) {
+        if (!stages->light(row, count)) {
             // The term image of these rows is larger than the device gives in one piece: take fewer.
             if (rows <= 1)
                 throw MachineError(
@@ -64,15 +78,14 @@ void Renderer::render(const StripSink& sink, const Progress& progress) {
             rows = std::max(1, rows / 2);
             continue;
         }
-        for (int done = 0; done < count; done += body.memory.cubeRows) {
-            const int part = std::min(body.memory.cubeRows, count - done);
-            body.stages->expand(done, part, body.cube, body.preview);
-            body.deliver(row + done, part, sink);
-            if (progress) progress(static_cast<double>(row + done + part) / height);
+        for (int from = 0; from < count; from += memory.cubeRows) {
+            const int part = std::min(memory.cubeRows, count - from);
+            stages->expand(from, part, cube, preview);
+            done(row + from, part);
         }
         row += count;
     }
-    body.times.render += start.seconds();
+    times.render += start.seconds();
 }
 
 namespace {

@@ -5,10 +5,11 @@
 //   renderer.render(sink, progress);
 #pragma once
 
-#include "opencl/device.h"
+#include "opencl/device_body.h"
 #include "render/plan.h"
 #include "render/settings.h"
 
+#include <functional>
 #include <memory>
 
 namespace spectrad {
@@ -22,6 +23,9 @@ class Renderer {
     Renderer& operator=(const Renderer&) = delete;
 
     void render(const StripSink& sink, const Progress& progress = {});
+    /// The same, but the strips stay on the device: [row][band][pitch], for kernels.
+    using DeviceSink = std::function<void(int firstRow, int rows, const cl::Buffer& bands, int pitch)>;
+    void renderOnDevice(const DeviceSink& sink);
     [[nodiscard]] RenderTimes times() const;
     [[nodiscard]] int stripRows() const;                ///< rows a strip has on this device
     [[nodiscard]] std::uint64_t bytesPerStrip() const;  ///< device memory of a strip's buffers

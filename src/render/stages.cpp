@@ -1,5 +1,7 @@
 #include "render/stages.h"
 
+#include "render/resident.h"
+
 #include <algorithm>
 
 namespace spectrad {
@@ -105,7 +107,37 @@ Stages::Stages(const Device& device, const Plan& plan, const LanePattern& lanes)
     used_.upload(device_, lanes.used.data(), lanes.used.size(), "the sample pattern");
 }
 
+/// All texels in one buffer: the host's, then those that are on the device already. A single texture of a
+/// pass is read where it is.
+void Stages::uploadTextures() {
+    const World& world = plan_.world;
+    std::vector<sd_texture> textures = world.textures;
+    size_t total = world.texels.size();
+    for (const World::Resident& part : world.resident) {
+        textures[part.texture].first = total;
+        total += part.texels->count();
+    }
+    textures_.upload(device_, textures.data(), textures.size(), "the textures");
+    if (world.texels.empty() && world.resident.size() == 1) {
+        texels_ = world.resident.front().texels->values.buffer();
+        return;
+    }
+    ownTexels_.reserve(device_, total, "the textures");
+    texels_ = ownTexels_.buffer();
+    checked(device_.body(), "uploading the textures", [&] {
+        const cl::CommandQueue& queue = device_.body().queue;
+        if (!world.texels.empty())
+            queue.enqueueWriteBuffer(texels_, CL_TRUE, 0, world.texels.size() * sizeof(float),
+                                     world.texels.data());
+        for (const World::Resident& part : world.resident)
+            queue.enqueueCopyBuffer(part.texels->values.buffer(), texels_, 0,
+                                    textures[part.texture].first * sizeof(float),
+                                    part.texels->count() * sizeof(float));
+    });
+}
+
 void Stages::uploadWorld() {
+    uploadTextures();
     const World& world = plan_.world;
     const auto up = [this](auto& array, const auto& data, const char* what) {
         array.upload(device_, data.data(), data.size(), what);
@@ -122,8 +154,6 @@ void Stages::uploadWorld() {
     up(tables_, world.tables, "the materials' tables");
     up(lights_, world.lights, "the lights");
     up(coordinates_, world.uv, "the scene's texture coordinates");
-    up(textures_, world.textures, "the textures");
-    up(texels_, world.texels, "the textures");
     up(spans_, spansOf(plan_.terms.spectra, plan_.terms.bands), "the terms' spectra");
     up(previewSpans_, spansOf(plan_.terms.preview, 3), "the terms' colours");
     up(spectra_, plan_.terms.spectra, "the terms' spectra");
@@ -309,7 +339,7 @@ bool Stages::light(int firstRow, int rows) {
         .set("light_count", static_cast<cl_uint>(plan_.world.lights.size()))
         .set("groups", static_cast<cl_uint>(plan_.groups))
         .set("textures", textures_.buffer())
-        .set("texels", texels_.buffer())
+        .set("texels", texels_)
         .set("frame", frame_)
         .set("pattern_x", laneX_.buffer())
         .set("pattern_y", laneY_.buffer())

@@ -61,6 +61,7 @@ class Stages {
 
   private:
     void uploadWorld();
+    void uploadTextures();
     void expandRows(int from, int rows, const DeviceArray<float>& spectra,
                     const DeviceArray<std::uint32_t>& spans, size_t bands, DeviceArray<float>& out,
                     const char* what);
@@ -79,7 +80,8 @@ class Stages {
     Kernel find_, scanTerms_, list_, light_, expand_, show_;
 
     DeviceArray<float> position_, normal_, tangent_, camera_, cameraNormal_, cameraTangent_, coordinates_,
-        texels_, spectra_, previewSpectra_;
+        ownTexels_, spectra_, previewSpectra_;
+    cl::Buffer texels_;  ///< ownTexels_, or those of the one pass that the scene shows
     DeviceArray<std::uint32_t> vertexDraw_, index_, triangleMaterial_;
     DeviceArray<sd_draw> draws_;
     DeviceArray<sd_vertex> screen_;

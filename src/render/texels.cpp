@@ -1,5 +1,7 @@
 #include "render/texels.h"
 
+#include "render/resident.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,6 +50,22 @@ bool placedAsIs(const sd_texture& t) {
     return t.wrap == SD_CLAMP && std::equal(still.begin(), still.end(), t.place);
 }
 
+/// An image of one level; where its texels are is said later.
+sd_texture entryFor(const TextureUse& use, int width, int height, int bands) {
+    sd_texture t{};
+    t.width = width;
+    t.height = height;
+    t.bands = bands;
+    t.filter = use.filter == TextureFilter::nearest ? SD_NEAREST
+               : use.filter == TextureFilter::mip   ? SD_MIP
+                                                    : SD_BILINEAR;
+    t.wrap = use.repeat ? SD_REPEAT : SD_CLAMP;
+    t.levels = 1;
+    const std::array<float, 6> place = placeOf(use);
+    std::copy(place.begin(), place.end(), t.place);
+    return t;
+}
+
 }  // namespace
 
 Texels halved(const Texels& image) {
@@ -82,18 +100,8 @@ Texels halved(const Texels& image) {
 }
 
 std::uint32_t addTexels(World& world, Texels image, const TextureUse& use) {
-    sd_texture t{};
+    sd_texture t = entryFor(use, image.width, image.height, image.bands);
     t.first = world.texels.size();
-    t.width = image.width;
-    t.height = image.height;
-    t.bands = image.bands;
-    t.filter = use.filter == TextureFilter::nearest ? SD_NEAREST
-               : use.filter == TextureFilter::mip   ? SD_MIP
-                                                    : SD_BILINEAR;
-    t.wrap = use.repeat ? SD_REPEAT : SD_CLAMP;
-    t.levels = 1;
-    const std::array<float, 6> place = placeOf(use);
-    std::copy(place.begin(), place.end(), t.place);
     world.texels.insert(world.texels.end(), image.texels.begin(), image.texels.end());
     while (t.filter == SD_MIP && (image.width > 1 || image.height > 1)) {
         image = halved(image);
@@ -101,6 +109,12 @@ std::uint32_t addTexels(World& world, Texels image, const TextureUse& use) {
         ++t.levels;
     }
     world.textures.push_back(t);
+    return static_cast<std::uint32_t>(world.textures.size());
+}
+
+std::uint32_t addResident(World& world, std::shared_ptr<const ResidentTexels> image, const TextureUse& use) {
+    world.textures.push_back(entryFor(use, image->width, image->height, static_cast<int>(image->nm.size())));
+    world.resident.push_back({world.textures.size() - 1, std::move(image)});
     return static_cast<std::uint32_t>(world.textures.size());
 }
 

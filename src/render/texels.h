@@ -14,6 +14,10 @@ namespace spectrad {
 /// + its number.
 [[nodiscard]] std::uint32_t addTexels(World& world, Texels image, const TextureUse& use);
 
+/// The same for an image that stays on the device, without smaller levels.
+[[nodiscard]] std::uint32_t addResident(World& world, std::shared_ptr<const ResidentTexels> image,
+                                        const TextureUse& use);
+
 /// Kernel switches that the world's textures need.
 [[nodiscard]] std::vector<std::string> textureDefines(const World& world);
 

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "render/plan.h"
+#include "render/resident.h"
 #include "spectrum/lift.h"
 #include "spectrum/mass_matrix.h"
 #include "spectrum/projection.h"
@@ -14,6 +15,12 @@
 #include <optional>
 
 namespace spectrad {
+
+void SpectralTexture::fetch() {
+    if (!resident) return;
+    texels = resident->read();
+    resident.reset();
+}
 
 SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& notes) {
     const CubeInfo& info = cube.info;

@@ -8,6 +8,7 @@
 #include "spectrum/library.h"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,10 +21,15 @@ struct Texels {
     std::vector<float> texels;  ///< [(row * width + column) * bands + band], row 0 on top
 };
 
+struct ResidentTexels;
 struct SpectralTexture {
     int width = 0, height = 0;
-    std::vector<double> nm;     ///< ascending
-    std::vector<float> texels;  ///< [(row * width + column) * nm + band], row 0 on top
+    std::vector<double> nm;                            ///< ascending
+    std::vector<float> texels;                         ///< [(row * width + column) * nm + band], row 0 on top
+    std::shared_ptr<const ResidentTexels> resident{};  ///< instead of them, on the device
+
+    /// For who wants to look at the texels: brings them to the host. Throws MachineError.
+    void fetch();
 };
 
 /// A cube as a texture: slit averages become the nodal values of the curve that has them; reflectances are

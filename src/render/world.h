@@ -6,6 +6,7 @@
 #include "types.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace spectrad {
@@ -31,6 +32,8 @@ struct View {
 /// A mesh's place before the camera.
 [[nodiscard]] sd_draw drawOf(const Affine& objectToCamera);
 
+struct ResidentTexels;
+
 struct World {
     std::vector<float> position, normal;  ///< three a vertex, in the object space of the vertex's draw
     std::vector<float> uv;                ///< two a vertex; empty if nothing asks for them
@@ -46,6 +49,12 @@ struct World {
     std::vector<sd_light> lights;
     std::vector<sd_texture> textures;
     std::vector<float> texels;
+    /// Textures whose texels a pass left on the device; their `first` is found when all are there.
+    struct Resident {
+        size_t texture;
+        std::shared_ptr<const ResidentTexels> texels;
+    };
+    std::vector<Resident> resident;
 };
 
 /// Adds the triangles of all objects: shapes tessellated to a tenth of a pixel as this view sees them, meshes

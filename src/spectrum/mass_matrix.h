@@ -21,6 +21,9 @@ class MassMatrix {
     /// solve().
     void solveAll(std::span<double> moments, size_t count) const;
 
+    [[nodiscard]] std::span<const double> off() const { return off_; }          ///< one fewer than nodes
+    [[nodiscard]] std::span<const double> inverse() const { return inverse_; }  ///< of the pivots
+
   private:
     std::vector<double> off_;      ///< ∫ h_j h_{j+1} = d_j / 6
     std::vector<double> inverse_;  ///< 1 / pivot

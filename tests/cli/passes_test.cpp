@@ -80,6 +80,13 @@ TEST_CASE("a chain of passes is bit for bit the same done by hand through files"
     folder.write("second.xml", scene("chart.exr", "photograph.exr"));
     REQUIRE(run(folder, {"render", "second.xml", "-q", "-o", "hand.exr"}).code == 0);
     requireSame(folder, "chain.exr", "hand.exr");
+
+    // What is saved as well goes by the host instead of staying on the device.
+    REQUIRE(run(folder, {"render", "chain.xml", "-q", "-o", "saved.exr", "--set",
+                         "pass:photograph.save=kept/photograph.exr"})
+                .code == 0);
+    requireSame(folder, "kept/photograph.exr", "photograph.exr");
+    REQUIRE(run(folder, {"compare", "saved.exr", "hand.exr", "--json", "-q"}).json().at("band_rmse") == 0);
 }
 
 TEST_CASE("a pass of another file is what rendering that file makes") {
