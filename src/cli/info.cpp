@@ -19,7 +19,7 @@ namespace {
 
 struct InfoArguments {
     SceneArguments scene;
-    bool list = false, json = false, quiet = false;
+    bool list = false, cost = false, json = false, quiet = false;
 };
 
 enum class Kind { scene, cube, spectrum };
@@ -55,9 +55,14 @@ ExitCode inform(const InfoArguments& arguments) {
         return ExitCode::ok;
     }
     if (what.empty()) throw UsageError("info needs a SCENE, a CUBE or a SPECTRUM, or --list");
+    if (arguments.cost && kindOf(what) != Kind::scene)
+        throw UsageError("--cost is for scenes, and '" + what + "' is none");
     switch (kindOf(what)) {
         case Kind::scene:
-            printSceneInfo(arguments.scene, arguments.json, console);
+            if (arguments.cost)
+                printSceneCost(arguments.scene, arguments.json, console);
+            else
+                printSceneInfo(arguments.scene, arguments.json, console);
             break;
         case Kind::cube:
             printCubeInfo(what, arguments.json, console);
@@ -83,6 +88,9 @@ void addInfo(CLI::App& app, Action& action) {
         ->type_name("SCENE|CUBE|SPECTRUM");
     command->add_flag("--list", arguments->list,
                       "list the library's spectra, with WHAT only those whose names start so");
+    command->add_flag("--cost", arguments->cost,
+                      "of a scene: render it without each of its features in turn, and print what each costs "
+                      "in time and memory and changes in CIEDE2000");
     command->add_flag("--json", arguments->json, "print one JSON value");
     command->add_flag("-q,--quiet", arguments->quiet, "no remarks on standard error");
     addSceneOptions(*command, arguments->scene);

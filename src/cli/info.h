@@ -12,6 +12,8 @@ namespace spectrad {
 class Library;
 
 void printSceneInfo(const SceneArguments& arguments, bool json, Console& console);
+/// What each feature of the scene costs and changes.
+void printSceneCost(const SceneArguments& arguments, bool json, Console& console);
 void printCubeInfo(const std::string& file, bool json, Console& console);
 void printSpectrumInfo(const std::string& text, const Library& library, bool json, Console& console);
 /// The library's entries whose names start with `prefix`.

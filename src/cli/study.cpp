@@ -7,6 +7,7 @@
 #include "cli/console.h"
 #include "cli/options.h"
 #include "cli/study_files.h"
+#include "cli/study_size.h"
 #include "colour/difference.h"
 #include "image/picture.h"
 #include "render/passes.h"
@@ -16,7 +17,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <filesystem>
 
 namespace spectrad {
@@ -41,18 +41,6 @@ double secondsOf(const std::string& text) {
     if (factor == 0 || !value || !(*value > 0))
         throw UsageError("--budget: '" + text + "' is not a time, such as 90s, 5min or 1h");
     return factor * *value;
-}
-
-/// Pictures of a few hundred thousand pixels tell as much as large ones, in a fraction of the time.
-void limitSize(RenderSettings& render, const Plan& plan) {
-    if (render.size) return;
-    constexpr int longest = 480;
-    const int side = std::max(plan.view.width, plan.view.height);
-    if (side <= longest) return;
-    const auto scaled = [&](int n) {
-        return std::max(1, static_cast<int>(std::lround(double{1} * n * longest / side)));
-    };
-    render.size = {scaled(plan.view.width), scaled(plan.view.height)};
 }
 
 void writeMap(const fs::path& folder, const StudyRow& row) {

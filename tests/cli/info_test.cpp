@@ -1,6 +1,8 @@
 // info on spectra and the library.
 #include "cli/support.h"
 
+#include <map>
+
 using cli::Folder;
 using cli::Outcome;
 using cli::requireError;
@@ -106,4 +108,33 @@ TEST_CASE("info on a scene is on the scene, with its own ENVI image beside it") 
 <light type="ambient" spectrum="constant:1" scale="1"/><camera size="16x16"/></scene>)");
     REQUIRE(run(folder, {"render", "s.xml", "-o", "s.img"}).code == 0);
     CHECK(run(folder, {"info", "s.xml", "--json"}).json().at("lights") == 1);
+}
+
+TEST_CASE("info --cost tells of each feature what it costs and what the picture is without it") {
+    if (!cli::haveDevice()) return;
+    const cli::Folder folder;
+    folder.write("two.xml", R"(<scene version="1">
+      <wavelengths from="400" to="700" step="20"/>
+      <material name="car"><diffuse reflectance="constant:0.5"/><gloss ior="1.5" roughness="0.4"/></material>
+      <material name="gold"><conductor ior="metals/Au" roughness="0.4"/></material>
+      <node translate="-1 0 0"><sphere material="car"/></node><node translate="1 0 0"><sphere material="gold"/></node>
+      <light type="point" position="2 3 5" spectrum="illuminants/D65" intensity="500 cd"/>
+      <camera look-from="0 0 8" size="64x32"/></scene>)");
+    const cli::Outcome outcome = cli::run(folder, {"info", "two.xml", "--cost", "--json"});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const nlohmann::json report = outcome.json();
+    CHECK(report.at("seconds") > 0);
+    CHECK(report.at("bytes_per_strip") > 0);
+    std::map<std::string, nlohmann::json> of;
+    for (const nlohmann::json& feature : report.at("features"))
+        of[feature.at("feature")] = feature;
+    for (const char* feature : {"gloss", "conductor", "conductor fresnel", "point"})
+        REQUIRE(of.contains(feature));
+    CHECK(of.at("gloss").at("terms") == 1);
+    CHECK(of.at("conductor").at("deltae00").at("max") > 5);
+    CHECK(of.at("conductor fresnel").at("deltae00").at("max") < of.at("conductor").at("deltae00").at("max"));
+    CHECK(of.at("conductor fresnel").at("terms") > 0);
+    CHECK(of.at("point").at("deltae00").at("max") > 50);
+    cli::requireError(cli::run(folder, {"info", "illuminants/D65", "--cost"}), 2, "--cost");
 }
