@@ -13,10 +13,8 @@ extern "C" void* glfwGetX11Display();  // of GLFW built for X11; its own header 
 
 namespace {
 
-/// Set when the connection to the X server breaks. Xlib's own answer is to end the process.
-bool displayLost = false;  // NOLINT: what Xlib calls knows no window
-
-void watchDisplay() {
+/// Sets `lost` when the connection to the X server breaks. Xlib's own answer is to end the process.
+void watchDisplay(bool& lost) {
     void* library = ::dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
     if (!library) return;
     using Handler = int (*)(void*);
@@ -28,7 +26,7 @@ void watchDisplay() {
     if (set && setExit && display) {
         set([](void*) { return 0; });
         setExit(
-            display, [](void*, void*) { displayLost = true; }, nullptr);
+            display, [](void*, void* flag) { *static_cast<bool*>(flag) = true; }, &lost);
     }
     ::dlclose(library);
 }
@@ -52,7 +50,7 @@ class Window : public Face {
             glfwTerminate();
             throw MachineError("no window of OpenGL 3.3 can be opened: " + reason);
         }
-        watchDisplay();
+        watchDisplay(displayLost_);
         glfwMakeContextCurrent(window_);
         glfwSwapInterval(1);
         glfwSetWindowUserPointer(window_, this);
@@ -77,7 +75,7 @@ class Window : public Face {
         });
     }
     ~Window() override {
-        if (displayLost) return;  // nobody is left to be told
+        if (displayLost_) return;  // nobody is left to be told
         glfwDestroyWindow(window_);
         glfwTerminate();
     }
@@ -105,7 +103,7 @@ class Window : public Face {
             glfwWaitEventsTimeout(seconds);
         else
             glfwPollEvents();
-        if (displayLost) throw MachineError("the display is lost: the connection to it broke");
+        if (displayLost_) throw MachineError("the display is lost: the connection to it broke");
         return std::exchange(events_, {});
     }
     void present() override { glfwSwapBuffers(window_); }
@@ -120,6 +118,7 @@ class Window : public Face {
     }
 
     GLFWwindow* window_ = nullptr;
+    bool displayLost_ = false;
     std::vector<Event> events_;
 };
 

@@ -10,30 +10,15 @@ namespace spectrad::view {
 
 namespace {
 
-/// Up to so many lights have terms of their own, so that each can change without the others. More share
-/// terms, and a change plans the materials anew.
+/// Up to so many lights have terms of their own, so that each can change without the others. Of more, those
+/// do that were changed; the first change of one plans the materials anew.
 constexpr size_t mostLightsApart = 16;
 
-Vec3 vertexAt(const World& world, const std::vector<Affine>& toWorld, std::uint32_t vertex) {
-    const float* p = world.position.data() + size_t{3} * vertex;
-    return toWorld[world.vertexDraw[vertex]].point({p[0], p[1], p[2]});
-}
+/// A light that is in no group but its own is called by its number, too.
+constexpr char alone = '\x1f';
 
-bool isPicture(const std::optional<TextureUse>& use) {
-    return use && use->mapping == TextureMapping::picture;
-}
-
-/// Whether a picture depends on the camera's place beyond perspective: curved shapes are cut into triangles
-/// as it sees them, mirrors and a backdrop show what was rendered for it.
-bool followsCamera(const Scene& scene, const FlatScene& flat) {
-    for (const FlatScene::Object& object : flat.objects)
-        for (const ShapeUse& use : object.node->shapes)
-            if (use.shape.kind != ShapeKind::box && use.shape.kind != ShapeKind::plane) return true;
-    if (scene.background && isPicture(scene.background->texture)) return true;
-    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
-        return (m.gloss && isPicture(m.gloss->reflects)) || (m.specular && isPicture(m.specular->reflects)) ||
-               (m.conductor && isPicture(m.conductor->reflects));
-    });
+std::string plainName(const std::string& text) {
+    return text.substr(0, text.find(alone));
 }
 
 }  // namespace
@@ -47,13 +32,18 @@ SceneSubject::SceneSubject(const std::filesystem::path& file, const LoadOptions&
       load_(load),
       settings_(settings),
       scene_(loadScene(file, library, load, notes)) {
-    settings_.lightsApart = scene_.lights.size() <= mostLightsApart;
     const Shot shot = chooseShot(scene_, settings_);
     if (shot.scene != &scene_)
         throw InputError(shot.pass->where,
                          "pass '" + shot.pass->name + "' shows another file: open that one to view it");
     flat_ = shot.pass ? flatten(scene_, *shot.pass) : flatten(scene_);
+    settings_.lightsApart = flat_.lights.size() <= mostLightsApart;
     PassTextures passes(scene_, library_, device_, settings_, notes_);
+    const std::vector<GraphNode>& graph = passes.graph();
+    passes_ = graph.size() > 1;
+    pictures_ = std::any_of(graph.begin(), graph.end() - 1, [](const GraphNode& node) {
+        return !node.shot.pass || node.shot.pass->as != PassKind::reflectance;
+    });
     Plan made = makePlan(scene_, settings_, library_, passes, notes_);
     if (made.as != PassKind::radiance)
         throw InputError("pass '" + made.passName + "' is no radiance: view shows what an eye sees");
@@ -88,7 +78,7 @@ SceneSubject::SceneSubject(const std::filesystem::path& file, const LoadOptions&
     const double distance = std::max(dot(middle - pose_.eye, forward), 0.05 * radius);
     pose_.target = pose_.eye + forward * (distance > 0 ? distance : 1);
     home_ = pose_;
-    follows_ = followsCamera(scene_, flat_);
+    follows_ = followsCamera();
 }
 
 Look SceneSubject::firstLook() const {
@@ -105,74 +95,6 @@ Look SceneSubject::firstLook() const {
 void SceneSubject::place() {
     stale_ = follows_;
     live_->move(view_, scene_, flat_);
-}
-
-void SceneSubject::setPose(const Pose& pose) {
-    pose_ = pose;
-    view_.worldToCamera = inverse(Affine::lookAt(pose.eye, pose.target, pose.up));
-    view_.orthographic = pose.orthographic;
-    view_.pixelsPerSlope = pose.pixelsPerSlopeOverHeight * view_.height;
-    place();
-}
-
-void SceneSubject::setSize(int width, int height) {
-    if (width == view_.width && height == view_.height) return;
-    view_.width = width;
-    view_.height = height;
-    view_.pixelsPerSlope = pose_.pixelsPerSlopeOverHeight * height;
-    place();
-}
-
-std::pair<Vec3, double> SceneSubject::bounds() const {
-    const World& world = live_->plan().world;
-    constexpr double huge = 1e300;
-    Vec3 low{huge, huge, huge}, high{-huge, -huge, -huge};
-    for (std::uint32_t v = 0; v < world.vertexDraw.size(); ++v) {
-        const Vec3 p = vertexAt(world, live_->drawToWorld(), v);
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    if (low.x > high.x) return {{0, 0, 0}, 1};
-    return {(low + high) * 0.5, std::max(0.5 * length(high - low), 1e-9)};
-}
-
-std::optional<Hit> SceneSubject::hitAt(int x, int y) {
-    resolve();
-    const std::optional<std::uint32_t> triangle = live_->triangleAt(x, y);
-    if (!triangle) return std::nullopt;
-    const World& world = live_->plan().world;
-    std::array<Vec3, 3> corner;
-    for (size_t i = 0; i < 3; ++i)
-        corner[i] = view_.worldToCamera.point(
-            vertexAt(world, live_->drawToWorld(), world.index[size_t{3} * *triangle + i]));
-    // The ray through the pixel's centre meets the triangle's plane.
-    const double sx = (x + 0.5 - view_.width * 0.5) / view_.pixelsPerSlope,
-                 sy = (view_.height * 0.5 - y - 0.5) / view_.pixelsPerSlope;
-    const Vec3 from = view_.orthographic ? Vec3{sx, sy, 0} : Vec3{0, 0, 0};
-    const Vec3 along = view_.orthographic ? Vec3{0, 0, -1} : Vec3{sx, sy, -1};
-    const Vec3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
-    const double facing = dot(normal, along);
-    Hit hit;
-    const Vec3 place = facing != 0 ? from + along * (dot(normal, corner[0] - from) / facing) : corner[0];
-    hit.place = inverse(view_.worldToCamera).point(place);
-
-    // Draws stand in the order in which addGeometry meets shapes and meshes.
-    const std::uint32_t wanted = world.vertexDraw[world.index[size_t{3} * *triangle]];
-    std::uint32_t draw = 0;
-    for (const FlatScene::Object& object : flat_.objects) {
-        const auto meet = [&](Index material, bool empty) {
-            if (empty) return;
-            if (draw++ != wanted) return;
-            hit.node = object.node->name;
-            hit.materialIndex = material;
-            hit.material = scene_.materials[material].name;
-        };
-        for (const ShapeUse& use : object.node->shapes)
-            meet(use.material, false);
-        for (const MeshUse& use : object.node->meshes)
-            meet(use.material, use.mesh->index.empty());
-    }
-    return hit;
 }
 
 Scene SceneSubject::sceneOf(const Look& look) const {
@@ -193,30 +115,6 @@ Scene SceneSubject::sceneOf(const Look& look) const {
     return changed;
 }
 
-std::optional<SceneSubject::Moved> SceneSubject::moved() const {
-    const auto same = [](Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; };
-    if (same(pose_.eye, home_.eye) && same(pose_.target, home_.target) && same(pose_.up, home_.up) &&
-        pose_.pixelsPerSlopeOverHeight == home_.pixelsPerSlopeOverHeight)
-        return std::nullopt;
-    const Affine toNode = inverse(cameraNode_);
-    return Moved{
-        camera_, toNode.point(pose_.eye), toNode.point(pose_.target), normalized(toNode.direction(pose_.up)),
-        scene_.cameras[camera_].viewHeight * home_.pixelsPerSlopeOverHeight / pose_.pixelsPerSlopeOverHeight};
-}
-
-void SceneSubject::placeCamera(Scene& scene) const {
-    const auto now = moved();
-    if (!now) return;
-    scene.cameras[now->camera].toNode = Affine::lookAt(now->eye, now->target, now->up);
-    scene.cameras[now->camera].viewHeight = now->viewHeight;
-}
-
-Scene SceneSubject::changed(const Look& look) const {
-    Scene scene = sceneOf(look);
-    placeCamera(scene);
-    return scene;
-}
-
 std::vector<LightGroup> SceneSubject::groupsOf(const Scene& changed) const {
     std::vector<sd_light> lights;
     return groupLights(
@@ -232,6 +130,7 @@ void SceneSubject::plan(Table& table, const Look& look, const Scene& changed) {
     settings.size = {view_.width, view_.height};
     PassTextures passes(changed, library_, device_, settings, unsaid);
     Plan made = makePlan(changed, settings, library_, passes, unsaid);
+    ++timesPlanned_;
     table.recipes = made.terms.recipes;
     table.spectra = made.terms.spectra;
     table.colours = made.terms.preview;
@@ -241,28 +140,42 @@ void SceneSubject::plan(Table& table, const Look& look, const Scene& changed) {
                           [](const auto& p, const auto& q) { return std::memcmp(&p, &q, sizeof p) == 0; });
     };
     const World& world = live_->plan().world;
-    const bool shared = made.groups == live_->plan().groups && same(made.world.materials, world.materials) &&
-                        same(made.world.lobes, world.lobes) && same(made.world.tables, world.tables) &&
-                        same(made.world.textures, world.textures) && same(made.world.texels, world.texels);
-    if (shared && settings_.lightsApart) return;
+    // A light that is alone in its group has its amount in its terms, off or on.
+    for (sd_light& light : made.world.lights)
+        if (table.groups[light.group].text.find(alone) != std::string::npos) light.scale = 1;
+    const bool shared =
+        made.groups == live_->plan().groups &&
+        std::equal(
+            made.world.lights.begin(), made.world.lights.end(), world.lights.begin(), world.lights.end(),
+            [](const sd_light& p, const sd_light& q) { return p.group == q.group && p.scale == q.scale; }) &&
+        same(made.world.materials, world.materials) && same(made.world.lobes, world.lobes) &&
+        same(made.world.tables, world.tables) && same(made.world.textures, world.textures) &&
+        same(made.world.texels, world.texels);
+    if (shared) return;
     live_->wear(std::move(made));
     tables_.clear();
     live_->move(view_, scene_, flat_);
 }
 
-void SceneSubject::follow() {
-    if (!stale_ || samples() < finalSamples_) return;
-    stale_ = false;
-    Scene moved = scene_;
-    placeCamera(moved);
-    RenderSettings settings = settings_;
-    settings.size = {view_.width, view_.height};
-    Notes unsaid;
-    PassTextures passes(moved, library_, device_, settings, unsaid);
-    Plan made = makePlan(moved, settings, library_, passes, unsaid);
-    live_ = std::make_unique<LiveImage>(device_, std::move(made));
-    tables_.clear();
-    live_->move(view_, scene_, flat_);
+bool SceneSubject::apart() const {
+    return settings_.lightsApart || apart_.size() <= mostLightsApart;
+}
+
+Scene SceneSubject::grouped(const Look& look) {
+    Scene scene = changed(look);
+    if (settings_.lightsApart) return scene;
+    const size_t before = apart_.size();
+    for (size_t i = 0; i < look.lights.size() && i < scene.lights.size(); ++i) {
+        const LightSetting& setting = look.lights[i];
+        if (setting.times != 1 || !setting.on ||
+            setting.emitter.spectrum.text != scene_.lights[i].emitter.spectrum.text)
+            apart_.insert(i);
+    }
+    if (apart_.size() > before) tables_.clear();
+    if (apart())
+        for (const size_t i : apart_)
+            scene.lights[i].emitter.spectrum.text += alone + std::to_string(i);
+    return scene;
 }
 
 const SceneSubject::Table& SceneSubject::table(const Look& look) {
@@ -270,26 +183,30 @@ const SceneSubject::Table& SceneSubject::table(const Look& look) {
     std::map<Index, std::string> worn;
     for (const auto& [material, reflectance] : look.reflectances)
         worn[material] = reflectance.text;
+    std::vector<double> amounts;
+    for (const LightSetting& light : look.lights)
+        amounts.push_back(light.on ? light.times : 0);
     const auto known = std::find_if(tables_.begin(), tables_.end(),
                                     [&](const Table& t) { return t.version == look.version; });
     if (known != tables_.end()) return *known;
 
-    const Scene changed = this->changed(look);
+    const Scene changed = grouped(look);
     // The nearest there is: the same materials, so that only lights and eye may differ.
     const auto near = std::find_if(tables_.rbegin(), tables_.rend(),
                                    [&](const Table& t) { return t.reflectances == worn; });
     Table made;
-    bool fresh = near == tables_.rend() || !settings_.lightsApart;
+    bool fresh = near == tables_.rend() || !apart();
     if (!fresh) {
         made = *near;
         const std::vector<LightGroup> groups = groupsOf(changed);
-        fresh = groups.size() != made.groups.size();
+        fresh = passes_ && near->amounts != amounts;
+        fresh = fresh || groups.size() != made.groups.size();
         for (size_t t = 0; t < made.recipes.size() && !fresh; ++t) {
             const TermRecipe& recipe = made.recipes[t];
             const bool lit = recipe.group < groups.size();
             const bool otherLight = lit && (groups[recipe.group].text != made.groups[recipe.group].text ||
                                             groups[recipe.group].factor != made.groups[recipe.group].factor);
-            if (recipe.group == TermRecipe::unknown)
+            if (recipe.group == TermRecipe::unknown || (pictures_ && otherLight))
                 fresh = true;
             else if (otherLight || made.eye != look.eye) {
                 const std::array<float, 3> colour =
@@ -302,6 +219,7 @@ const SceneSubject::Table& SceneSubject::table(const Look& look) {
     }
     made.version = look.version;
     made.reflectances = worn;
+    made.amounts = amounts;
     made.eye = look.eye;
     if (fresh) {
         made.groups = groupsOf(changed);
@@ -384,7 +302,7 @@ White SceneSubject::white(const Look& look) {
         const LightGroup& first = terms.groups.front();
         const std::array<const Curve*, 1> light{&first.spectrum};
         const Triple xyz = seenXyz(*look.eye, light);
-        if (xyz[1] > 0) return {first.text, {xyz[0] / xyz[1], 1, xyz[2] / xyz[1]}, false};
+        if (xyz[1] > 0) return {plainName(first.text), {xyz[0] / xyz[1], 1, xyz[2] / xyz[1]}, false};
     }
     const Curve equal = Curve::constant(1);
     const std::array<const Curve*, 1> light{&equal};

@@ -8,6 +8,7 @@
 #include "viewer/subject.h"
 
 #include <optional>
+#include <set>
 
 namespace spectrad::view {
 
@@ -56,6 +57,8 @@ class SceneSubject : public Subject {
     /// Samples a pixel from now on; the plan's own if not said.
     void setSamples(std::optional<int> samples) { samples_ = samples; }
     [[nodiscard]] int samples() const { return samples_.value_or(finalSamples_); }
+    /// How often the materials were planned anew: what a change costs beyond its terms' colours.
+    [[nodiscard]] int timesPlanned() const { return timesPlanned_; }
     [[nodiscard]] int finalSamples() const { return finalSamples_; }
     /// Middle and radius of everything there is, metres.
     [[nodiscard]] std::pair<Vec3, double> bounds() const;
@@ -86,6 +89,7 @@ class SceneSubject : public Subject {
     struct Table {
         std::uint64_t version = 0;
         std::map<Index, std::string> reflectances;  ///< by their texts
+        std::vector<double> amounts;                ///< of the lights, times their own
         std::vector<LightGroup> groups;
         std::vector<TermRecipe> recipes;
         std::vector<float> spectra;  ///< of a plan's bands, for terms whose recipe is unknown
@@ -95,6 +99,12 @@ class SceneSubject : public Subject {
     [[nodiscard]] const Table& table(const Look& look);
     [[nodiscard]] Scene sceneOf(const Look& look) const;
     void placeCamera(Scene& scene) const;
+    /// Whether a picture depends on the camera's place beyond perspective: curved shapes are cut into
+    /// triangles as it sees them, mirrors and a backdrop show what was rendered for it.
+    [[nodiscard]] bool followsCamera() const;
+    /// The scene as it is planned: lights that must change without the others are in groups of their own.
+    [[nodiscard]] Scene grouped(const Look& look);
+    [[nodiscard]] bool apart() const;
     [[nodiscard]] std::vector<LightGroup> groupsOf(const Scene& scene) const;
     /// All terms anew, materials included.
     void plan(Table& table, const Look& look, const Scene& changed);
@@ -112,14 +122,17 @@ class SceneSubject : public Subject {
     Scene scene_;
     FlatScene flat_;
     std::unique_ptr<LiveImage> live_;
+    std::set<size_t> apart_;     ///< of many lights those that have been changed
     std::vector<Table> tables_;  ///< the last few looks'
     View view_;
     Index camera_ = 0;   ///< whose picture it is
     Affine cameraNode_;  ///< that camera's node to the world
     Pose pose_, home_;
-    bool follows_ = false;  ///< shapes cut, or pictures made, as the camera sees them
-    bool stale_ = false;    ///< made for another place or size than the view's
-    int finalSamples_ = 16;
+    bool passes_ = false;    ///< others than the one that is shown, which depend on the lights' amounts
+    bool pictures_ = false;  ///< among them such as depend on the lights' spectra
+    bool follows_ = false;   ///< shapes cut, or pictures made, as the camera sees them
+    bool stale_ = false;     ///< made for another place or size than the view's
+    int finalSamples_ = 16, timesPlanned_ = 0;
     std::optional<int> samples_;
 };
 

@@ -1,6 +1,10 @@
 #include "viewer/support.h"
 
+#include "colour/difference.h"
+
 #include <catch2/catch.hpp>
+
+#include <algorithm>
 
 namespace spectrad::view::test {
 
@@ -65,6 +69,34 @@ void Desk::open(const std::filesystem::path& file, const RenderSettings& setting
 
 void Desk::play(const std::string& script) {
     run(*viewer, parseScript(script, "script"), 0);
+}
+
+Cube rendered(const std::string& text, const Desk& desk, RenderSettings settings) {
+    Notes notes;
+    const Scene scene = loadScene(desk.folder.write("rendered.xml", text), desk.library, {}, notes);
+    PassTextures passes(scene, desk.library, desk.device, settings, notes);
+    return passes.render();
+}
+
+double worstDifference(Desk& desk, const std::string& text, RenderSettings settings) {
+    Look& look = desk.session->look(0);
+    desk.session->scene()->setSamples(16);
+    settings.samples = 16;
+    const Cube cube = rendered(text, desk, settings);
+    const ChannelImage viewed = desk.session->subject().xyz(look);
+    ChannelImage expected(cube.info.width, cube.info.height, 3);
+    const DetectorWeights weights = weightsOn(cube.info.wavelengths, look.eye->detector);
+    for (int y = 0; y < cube.info.height; ++y)
+        observeRow(weights, cube.row(y, 0), y, expected);
+    const White white = withLuminance(desk.session->whiteOf(look),
+                                      *std::max_element(expected.plane[1].begin(), expected.plane[1].end()));
+    return colourDifference(viewed, expected, white.xyz).max;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    const size_t at = text.find(what);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, what.size(), by);
 }
 
 }  // namespace spectrad::view::test

@@ -1,6 +1,7 @@
 // A scene in a viewer off screen, within the test's process.
 #pragma once
 
+#include "image/cube.h"
 #include "spectrum/library.h"
 #include "support/temporary_folder.h"
 #include "viewer/viewer.h"
@@ -39,5 +40,13 @@ class Desk {
   private:
     void open(const std::filesystem::path& file, const RenderSettings& settings);
 };
+
+/// A scene's own cube, as render makes it, passes and all.
+[[nodiscard]] Cube rendered(const std::string& text, const Desk& desk, RenderSettings settings = {});
+/// The largest ΔE00 between the viewer's float colours (look A, 16 samples) and those of the rendered scene,
+/// seen through its bands, as observe does.
+[[nodiscard]] double worstDifference(Desk& desk, const std::string& text, RenderSettings settings = {});
+/// With the first `what` replaced, which must be there.
+[[nodiscard]] std::string replaced(std::string text, const std::string& what, const std::string& by);
 
 }  // namespace spectrad::view::test

@@ -15,53 +15,12 @@
 using namespace spectrad;
 using view::test::canView;
 using view::test::Desk;
+using view::test::rendered;
+using view::test::replaced;
 using view::test::smallScene;
+using view::test::worstDifference;
 
 namespace {
-
-/// The scene's own cube, seen through its bands: what render and observe make.
-Cube rendered(const std::string& text, const Desk& desk, const RenderSettings& settings = {}) {
-    const TemporaryFolder folder;
-    Notes notes;
-    const Scene scene = loadScene(folder.write("scene.xml", text), desk.library, {}, notes);
-    const Plan plan = makePlan(scene, settings, desk.library, notes);
-    Cube cube;
-    cube.info.width = plan.view.width;
-    cube.info.height = plan.view.height;
-    cube.info.wavelengths = plan.wavelengths;
-    Renderer renderer(desk.device, plan);
-    renderer.render([&](int, int rows, const float* bands, const float*) {
-        cube.values.insert(
-            cube.values.end(), bands,
-            bands + static_cast<size_t>(rows) * plan.terms.bands * static_cast<size_t>(plan.view.width));
-    });
-    return cube;
-}
-
-ChannelImage seen(const Cube& cube, const Detector& detector) {
-    const DetectorWeights weights = weightsOn(cube.info.wavelengths, detector);
-    ChannelImage image(cube.info.width, cube.info.height, 3);
-    for (int y = 0; y < cube.info.height; ++y)
-        observeRow(weights, cube.row(y, 0), y, image);
-    return image;
-}
-
-/// The largest ΔE00 between the viewer's float colours and those of the rendered cube.
-double worstDifference(Desk& desk, const std::string& text) {
-    view::Look& look = desk.session->look(0);
-    desk.session->scene()->setSamples(16);
-    const ChannelImage viewed = desk.session->subject().xyz(look),
-                       expected = seen(rendered(text, desk), look.eye->detector);
-    const White white = withLuminance(desk.session->whiteOf(look),
-                                      *std::max_element(expected.plane[1].begin(), expected.plane[1].end()));
-    return colourDifference(viewed, expected, white.xyz).max;
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-    const size_t at = text.find(what);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, what.size(), by);
-}
 
 size_t residentBytes() {
     std::ifstream file("/proc/self/statm");
