@@ -27,10 +27,19 @@ test: packages packages-test build/build.ninja
 
 ##test-sanitized  the unit tests under AddressSanitizer and UndefinedBehaviorSanitizer, in build-debug/
 .PHONY: test-sanitized
-UNITS := base spectrum colour scene image render study
+UNITS := base spectrum colour camera metamer scene image render study fuzz
 test-sanitized: packages debug-configured
 	cmake --build build-debug --target $(UNITS:%=test_%)
 	ctest --test-dir build-debug --output-on-failure --parallel $(CORES) -R '^($(subst $() $(),|,$(UNITS)))$$'
+
+##extremes        numbers, faults and hostile input at their limits; a report in out/extremes.md (FUZZ_SECONDS=3600 HEAVY=1: hours)
+.PHONY: extremes
+FUZZ_SECONDS := 120
+FUZZERS := scene table words exr envi png
+extremes: packages packages-test build/build.ninja | out
+	cmake --build build --target spectrad
+	if command -v clang++ > /dev/null; then cmake --preset fuzz && cmake --build build-fuzz --target $(FUZZERS:%=fuzz_%); fi
+	python3 tests/extremes/report.py $(PROGRAM) out/extremes.md --fuzz-folder build-fuzz --seconds $(FUZZ_SECONDS) $(if $(HEAVY),--heavy)
 
 ##figures         the paper's figures 2 to 5 and a table of what was measured in them, in out/figures/
 .PHONY: figures
@@ -72,7 +81,7 @@ packages-test packages-develop: packages-%:
 ##clean           remove build/, build-debug/ and out/
 .PHONY: clean
 clean:
-	rm -rf build build-debug out
+	rm -rf build build-debug build-fuzz out
 
 ##help            this list
 .PHONY: help

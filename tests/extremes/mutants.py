@@ -32,11 +32,11 @@ def mutated(text, chance):
         kind = chance.randrange(10)
         if kind < 3 and numbers:
             hit = chance.choice(numbers)
-            with_ = chance.choice(NUMBERS) if chance.random() < 0.5 else repr(float(hit.group()) * 10 ** chance.uniform(-12, 12))
+            with_ = chance.choice(NUMBERS) if chance.random() < 0.2 else repr(float(hit.group()) * 10 ** chance.gauss(0, 3))
             text = text[:hit.start()] + with_ + text[hit.end():]
         elif kind < 5 and values:
             hit = chance.choice(values)
-            with_ = chance.choice(WORDS) if chance.random() < 0.6 else chance.choice(values).group(1)
+            with_ = chance.choice(WORDS) if chance.random() < 0.3 else chance.choice(values).group(1)
             text = text[:hit.start(1)] + with_.replace('<', '&lt;') + text[hit.end(1):]
         elif kind == 5 and elements:
             hit = chance.choice(elements)
@@ -92,7 +92,7 @@ def scenes(bench):
             # Kernels of new combinations take seconds to compile: most mutants are only planned.
             outcome = bench.run('info', 'scene.xml', timeout=120)
             judged(bench, outcome, f'info of a mutant of {os.path.basename(source)}')
-            if outcome.code == 0 and chance.random() < 0.1:
+            if outcome.code == 0 and chance.random() < 0.15:
                 outcome = bench.run('render', 'scene.xml', '-o', 'image.img', '--size', '12x8', '--samples', '1', '--wavelengths', '400:700:100', timeout=120)
                 judged(bench, outcome, f'a mutant of {os.path.basename(source)}', bench.path('image.img'))
                 rendered += 1

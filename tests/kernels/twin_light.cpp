@@ -93,6 +93,8 @@ template BlockOf<float> light(const Plan&, const Vertices&, const sd_frame&, con
                               const std::vector<std::uint64_t>&, int, int, int);
 template BlockOf<double> light(const Plan&, const Vertices&, const sd_frame&, const LanePattern&,
                                const std::vector<std::uint64_t>&, int, int, int);
+template BlockOf<long double> light(const Plan&, const Vertices&, const sd_frame&, const LanePattern&,
+                                    const std::vector<std::uint64_t>&, int, int, int);
 
 std::vector<float> expand(const Block& block, const std::vector<float>& spectra, size_t bands) {
     std::vector<float> out(bands * SD_BLOCK, 0.0f);

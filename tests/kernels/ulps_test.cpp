@@ -1,0 +1,128 @@
+// How far each kernel is from the same formulae in long double: histograms for docs/extremes.md, printed by
+// `test_kernels "[.ulps]"` for the device that is opened.
+#include "kernels/random_world.h"
+#include "kernels/read_back.h"
+#include "kernels/twin.h"
+#include "render/stages.h"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+using namespace spectrad;
+
+namespace {
+
+constexpr std::array<double, 9> bounds{0.5, 1, 2, 4, 16, 64, 1024, 65536, 1e30};
+
+struct Histogram {
+    std::array<size_t, bounds.size()> count{};
+    size_t all = 0;
+    double largest = 0;
+
+    void add(long double value, long double right, long double size) {
+        if (size == 0) return;
+        const auto error = static_cast<double>(std::fabs(value - right) / size * 0x1p23L);
+        const auto at = std::lower_bound(bounds.begin(), bounds.end(), error);
+        ++count[static_cast<size_t>(std::min(at, bounds.end() - 1) - bounds.begin())];
+        ++all;
+        largest = std::max(largest, error);
+    }
+};
+
+using Histograms = std::map<std::string, Histogram>;
+
+/// Vertices: the twin, bit for bit the device's, against long double. Camera space relative to the largest
+/// summand (what cancels is the scene's, not the kernel's), depth keys relative to themselves.
+void measureVertices(const Plan& plan, const sd_frame& frame, const std::string& world, Histograms& out) {
+    const twin::Vertices vertices = twin::transform(plan.world, frame);
+    for (size_t v = 0; v < plan.world.vertexDraw.size(); ++v) {
+        const sd_draw& draw = plan.world.draws[plan.world.vertexDraw[v]];
+        const float* p = plan.world.position.data() + 3 * v;
+        long double depth = 0;
+        for (size_t row = 0; row < 3; ++row) {
+            const double* m = draw.to_camera + 4 * row;
+            long double sum = m[3], size = std::fabs(m[3]);
+            for (size_t i = 0; i < 3; ++i) {
+                sum += static_cast<long double>(m[i]) * p[i];
+                size = std::max<long double>(size, std::fabs(static_cast<long double>(m[i]) * p[i]));
+            }
+            out["transform, place, " + world].add(vertices.camera[3 * v + row], sum, size);
+            depth = -sum;
+        }
+        if (!vertices.screen[v].outside && !frame.orthographic && !frame.baked)
+            out["transform, depth key, " + world].add(vertices.screen[v].depth_key, 1 / depth, 1 / depth);
+    }
+}
+
+void measure(const Device& device, const Plan& plan, const std::string& world, Histograms& out) {
+    const sd_frame frame = twin::frameOf(plan);
+    measureVertices(plan, frame, world, out);
+    const LanePattern lanes = lanePattern(plan.samples, device.body().vectorWidth());
+    Stages stages(device, plan, lanes);
+    stages.transform();
+    const int height = plan.view.height;
+    REQUIRE(stages.light(0, height));
+    const auto pitch = static_cast<size_t>(frame.pitch), rows = static_cast<size_t>(height),
+               bands = plan.terms.bands;
+    const auto keys = read<std::uint64_t>(device, stages.keys().buffer(), rows * pitch * lanes.slotX.size());
+    const auto first = read<std::uint32_t>(device, stages.terms().first.buffer(), stages.terms().blocks + 1);
+    const auto g = read<float>(device, stages.terms().g.buffer(), size_t{first.back()} * SD_BLOCK);
+    DeviceArray<float> cube, preview;
+    stages.expand(0, height, cube, preview);
+    const auto radiance = read<float>(device, cube.buffer(), rows * bands * pitch);
+    const twin::Vertices vertices = twin::transform(plan.world, frame);
+    const int blocksX = frame.pitch / SD_BLOCK;
+    for (size_t number = 0; number < stages.terms().blocks; ++number) {
+        const int row = static_cast<int>(number) / blocksX, column = static_cast<int>(number) % blocksX;
+        const auto block = twin::light<long double>(plan, vertices, frame, lanes, keys, row, column,
+                                                    device.body().vectorWidth());
+        const float* ours = g.data() + size_t{first[number]} * SD_BLOCK;
+        for (size_t i = 0; i < block.g.size(); ++i)
+            out["light, factors, " + world].add(ours[i], block.g[i], std::fabs(block.g[i]));
+        for (size_t band = 0; band < bands; ++band)
+            for (size_t x = 0; x < SD_BLOCK; ++x) {
+                long double sum = 0;
+                for (size_t t = 0; t < block.term.size(); ++t)
+                    sum += static_cast<long double>(plan.terms.spectra[block.term[t] * bands + band]) *
+                           ours[t * SD_BLOCK + x];
+                out["expand, bands, " + world].add(
+                    radiance[(static_cast<size_t>(row) * bands + band) * pitch +
+                             static_cast<size_t>(column) * SD_BLOCK + x],
+                    sum, std::fabs(sum));
+            }
+    }
+}
+
+Plan unbent(Plan plan) {
+    for (sd_material& material : plan.world.materials)
+        material.relief = 0;
+    return plan;
+}
+
+}  // namespace
+
+TEST_CASE("ulps of every kernel against long double", "[.ulps]") {
+    const Device device = Device::open(std::nullopt);
+    Histograms all;
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+        measure(device, unbent(randomPlan(seed, 4, seed % 2 == 0, 150, 24)), "random", all);
+        measure(device, adversarialPlan(seed, seed % 2 == 0), "adversarial", all);
+    }
+    fmt::print("{}, {}\n", device.info().name, device.info().platform);
+    fmt::print(
+        "| kernel | values | ≤ ½ | ≤ 1 | ≤ 2 | ≤ 4 | ≤ 16 | ≤ 64 | ≤ 1024 | ≤ 65536 | more | largest, ulps "
+        "|\n");
+    for (const auto& [name, histogram] : all) {
+        fmt::print("| {} | {} |", name, histogram.all);
+        for (size_t count : histogram.count)
+            fmt::print(" {:.3g} % |",
+                       100.0 * static_cast<double>(count) / static_cast<double>(histogram.all));
+        fmt::print(" {:.3g} |\n", histogram.largest);
+    }
+    CHECK(all.size() >= 7);
+}
