@@ -9,13 +9,13 @@ namespace spectrad::view {
 
 void drawHelp(float width, float height) {
     static constexpr std::array<std::pair<const char*, const char*>, 20> keys{
-        {{"left drag", "orbit about the middle of the view"},
+        {{"left drag", "orbit about the middle of the view; a cube: move it"},
          {"middle drag, shift + left drag", "pan"},
          {"wheel, right drag", "nearer, farther"},
          {"W A S D, arrows, page up and down", "fly"},
          {"click", "select a node and its material"},
          {"F", "frame what is selected, else everything"},
-         {"home", "the scene's own camera"},
+         {"home", "the scene's own camera; a cube: all of it"},
          {"ctrl + 1 … 9", "keep this view"},
          {"1 … 9", "go to a view kept"},
          {"L", "next illuminant for the first light"},

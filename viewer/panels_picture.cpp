@@ -105,6 +105,7 @@ void drawComparison(Session& session) {
                                                       "colour difference of A, B", "light mixed of A and B"};
     int mode = static_cast<int>(session.mode);
     if (chooseOne("##mode", modes, mode)) session.mode = static_cast<Mode>(mode);
+    ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("panels change");
     ImGui::SameLine();
     ImGui::RadioButton("A", &session.edited, 0);

@@ -27,7 +27,8 @@ void style(float scale) {
     s.Colors[ImGuiCol_FrameBg] = {0.20f, 0.20f, 0.22f, 1};
     s.Colors[ImGuiCol_Header] = {0.22f, 0.30f, 0.38f, 1};
     s.Colors[ImGuiCol_TitleBg] = s.Colors[ImGuiCol_TitleBgActive] = {0.13f, 0.13f, 0.15f, 1};
-    s.Colors[ImGuiCol_CheckMark] = s.Colors[ImGuiCol_SliderGrab] = {0.55f, 0.75f, 0.95f, 1};
+    s.Colors[ImGuiCol_CheckMark] = {0.55f, 0.75f, 0.95f, 1};
+    s.Colors[ImGuiCol_SliderGrab] = {0.55f, 0.75f, 0.95f, 0.5f};  // its number is read through it
     s.ScaleAllSizes(scale);
 }
 

@@ -74,6 +74,35 @@ TEST_CASE("the viewer's picture is that of render and observe, within one code")
           bands(run(folder, {"measure", "b.exr", "--at", "60,40"}).out));
 }
 
+TEST_CASE("what view saves is what it showed: picture, scene, cube") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    folder.write("balls.xml", balls);
+    folder.write(
+        "script.txt",
+        "set lamp.spectrum=illuminants/A\nset lamp.times=0.5\ncamera orbit 20 10\nset exposure=auto\n"
+        "save picture saved.png\nsave scene saved.xml\nsave cube saved.exr\n");
+    if (!canDraw(run(folder, {"view", "balls.xml", "--offscreen", "last.png", "--script", "script.txt",
+                              "--set", "red.gloss.roughness=0.2"})))
+        return;
+    REQUIRE(run(folder, {"observe", "saved.exr", "-o", "a.png", "-q"}).code == 0);
+    REQUIRE(run(folder, {"render", "saved.xml", "-o", "b.exr", "-q"}).code == 0);
+    REQUIRE(run(folder, {"observe", "b.exr", "-o", "b.png", "-q"}).code == 0);
+    CHECK(codesApart(folder / "saved.png", folder / "a.png") <= 1);
+    CHECK(codesApart(folder / "saved.png", folder / "b.png") <= 1);
+    const std::string text = cli::bytesOf(folder / "saved.xml");
+    CHECK(text.find("roughness=\"0.2\"") != std::string::npos);
+    CHECK(text.find("spectrum=\"illuminants/A\" intensity=\"150 cd\"") != std::string::npos);
+    // All but three lines are the original's.
+    const std::string original = balls;
+    size_t kept = 0;
+    for (size_t from = 0, to; from < original.size(); from = to + 1) {
+        to = original.find('\n', from);
+        kept += text.find(original.substr(from, to - from + 1)) != std::string::npos;
+    }
+    CHECK(kept == static_cast<size_t>(std::count(original.begin(), original.end(), '\n')) - 3);
+}
+
 TEST_CASE("view says in one line what is wrong") {
     const Folder folder;
     folder.write("balls.xml", balls);
