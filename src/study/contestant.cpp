@@ -1,6 +1,7 @@
 #include "study/contestant.h"
 
 #include "base/text.h"
+#include "study/adaptive.h"
 #include "study/linear_model.h"
 #include "study/quadrature.h"
 
@@ -41,6 +42,15 @@ void addBaselines(const Contestant& base, std::vector<Contestant>& out) {
         c = varied(base, Knob::baseline, fmt::format("gauss-{}", nodes),
                    fmt::format("Gaussian quadrature with {} wavelengths (after Meyer 1988)", nodes));
         c.method = Method::quadrature;
+        c.order = nodes;
+        out.push_back(c);
+    }
+    for (int nodes : {10, 20, 40}) {
+        c = varied(base, Knob::baseline, fmt::format("adaptive-{}", nodes),
+                   fmt::format("{} point wavelengths placed by adaptive integration of the lights (after "
+                               "Deville 1994, Rougeron and Péroche 1997)",
+                               nodes));
+        c.method = Method::adaptive;
         c.order = nodes;
         out.push_back(c);
     }
@@ -148,6 +158,12 @@ std::optional<Entry> prepare(const Contestant& contestant, const Scene& scene, c
             entry.weights = rule.weights;
             return entry;
         }
+        case Method::adaptive:
+            asked.wavelengths =
+                Wavelengths{adaptiveWavelengths(scene, observer, contestant.order), Projection::point};
+            entry.plan = planner(scene, asked);
+            entry.weights = weightsOn(entry.plan.wavelengths, observer);
+            return entry;
         case Method::linearModel: {
             asked.wavelengths = referenceGrid();
             Plan plan = planner(scene, asked);

@@ -25,14 +25,14 @@ struct OutputForm {
     bool operator==(const OutputForm&) const = default;
 };
 
-enum class Method { spectral, rgb, xyz, quadrature, linearModel };
+enum class Method { spectral, rgb, xyz, quadrature, linearModel, adaptive };
 
 struct Contestant {
     std::string key;   ///< "slit-5nm", unique
     std::string what;  ///< one line for people
     Knob knob = Knob::bands;
     Method method = Method::spectral;
-    int order = 0;  ///< wavelengths of a quadrature, components of a linear model
+    int order = 0;  ///< wavelengths of a quadrature or adaptive ones, components of a linear model
     Wavelengths wavelengths;
     int samples = 16;
     bool schlick = false;

@@ -2,6 +2,7 @@
 #include "colour/detector.h"
 #include "spectrum/library.h"
 #include "spectrum/projection.h"
+#include "study/adaptive.h"
 #include "study/eigen.h"
 #include "study/linear_model.h"
 #include "study/quadrature.h"
@@ -10,6 +11,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace spectrad;
@@ -173,4 +175,24 @@ TEST_CASE("a float cut to n bits is its neighbour of n bits, ties to even") {
     CHECK(keepBits(1.0f + 3 * 0x1p-8f, 8) == 1.0f + 0x1p-6f);         // a tie, up to even
     CHECK(keepBits(-0.1f, 24) == -0.1f);
     CHECK(std::abs(keepBits(-0.1f, 12) + 0.1f) <= 0x1p-12f * 0.1f);
+}
+
+TEST_CASE("adaptive wavelengths crowd where the lamp's lines are, and leave no gap where it is smooth") {
+    const Curve fl11 = library().find("illuminants/FL11")->curve();
+    const std::vector<double> nm = adaptiveWavelengths(chart(fl11, Curve::constant(1)), observer(), 40);
+    REQUIRE(nm.size() == 40);
+    CHECK(std::is_sorted(nm.begin(), nm.end()));
+    CHECK(nm.front() == 380);
+    CHECK(nm.back() == 780);
+    const auto within = [&](double from, double to) {
+        return std::count_if(nm.begin(), nm.end(), [&](double v) { return v >= from && v < to; });
+    };
+    CHECK(within(530, 560) >= 6);  // the green line at 545 nm
+    CHECK(within(680, 780) <= 6);
+    const std::vector<double> even =
+        adaptiveWavelengths(chart(Curve::constant(1), Curve::constant(1)), observer(), 40);
+    double widest = 0;
+    for (size_t i = 1; i < even.size(); ++i)
+        if (even[i] > 420 && even[i] < 660) widest = std::max(widest, even[i] - even[i - 1]);
+    CHECK(widest <= 25);
 }
