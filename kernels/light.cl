@@ -58,6 +58,11 @@ static void shade_light(sd_lobe lobe, global const sd_piece* tables, sd_light li
 #ifdef HAS_ROUGH
         case SD_LOBE_ROUGH: rough(lobe, tables, s, to_light, cos_light, irradiance, groups, at_view, lit, p, term); break;
 #endif
+#ifdef HAS_ROUGH_COATED
+        case SD_LOBE_ROUGH_COATED:
+            rough_coated(lobe, tables, s, to_light, cos_light, irradiance, groups, at_view, lit, p, term);
+            break;
+#endif
 #ifdef HAS_COATED
         case SD_LOBE_COATED: {
             const vfloat through = at_view.first * first_at(lobe, tables, s, to_light, cos_light);

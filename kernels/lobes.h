@@ -105,7 +105,7 @@ static inline void add_painted(sd_lobe lobe, paint p, surface s, vfloat g, vint 
 #ifdef HAS_TEXTURE
     g = masked(lobe, p, s, g, mask);
     if (lobe.texture != 0) {
-        add_textured(lobe, p.textures[lobe.texture - 1], p.texels, s, g, mask, p.samples, groups, lobe.steps, 0, lobe.inside, term);
+        add_textured(p.textures[lobe.texture - 1], p.texels, s, g, mask, p.samples, groups, lobe.steps, lobe.inside, -1.0f, term);
         return;
     }
 #endif
@@ -113,24 +113,27 @@ static inline void add_painted(sd_lobe lobe, paint p, surface s, vfloat g, vint 
 }
 
 #ifdef HAS_ROUGH
-/* The same for single and multiple scattering of a rough diffuse lobe, whose second term has the reflectance squared. */
-static inline void add_rough(sd_lobe lobe, paint p, surface s, vfloat single, vfloat multiple, vint mask, uint groups,
-                             global float* term) {
+/* The same for one part of a rough diffuse lobe, by that part's function of the reflectance; returns where the next part's terms are. */
+static inline global float* add_part(sd_lobe lobe, paint p, surface s, vfloat g, vint mask, uint groups, int steps, float inside,
+                                     float second, global float* term) {
 #ifdef HAS_TEXTURE
     if (lobe.texture != 0) {
         const sd_texture t = p.textures[lobe.texture - 1];
-        add_textured(lobe, t, p.texels, s, single, mask, p.samples, groups, 1, 0, 0.0f, term);
-        add_textured(lobe, t, p.texels, s, multiple, mask, p.samples, groups, lobe.steps, 1, lobe.inside,
-                     term + (size_t)t.bands * groups * SD_BLOCK);
-        return;
+        add_textured(t, p.texels, s, g, mask, p.samples, groups, steps, inside, second, term);
+        return term + (size_t)((t.bands - 1) * steps + 1) * groups * SD_BLOCK;
     }
 #endif
-    add_to(term, select((vfloat)0.0f, single, mask));
-    add_to(term + groups * SD_BLOCK, select((vfloat)0.0f, multiple, mask));
+    add_to(term, select((vfloat)0.0f, g, mask));
+    return term + groups * SD_BLOCK;
 }
-#endif
 
-#ifdef HAS_ROUGH
+/* Single and multiple scattering, whose terms have the reflectance and what is left of its square; returns where terms go on. */
+static inline global float* add_rough(sd_lobe lobe, paint p, surface s, vfloat single, vfloat multiple, vint mask, uint groups,
+                                      global float* term) {
+    term = add_part(lobe, p, s, single, mask, groups, 1, 0.0f, 0.0f, term);
+    return add_part(lobe, p, s, multiple, mask, groups, lobe.steps, lobe.inside, 0.0f, term);
+}
+
 /* Oren & Nayar 1994 by its ratio B/A, in the form that keeps energy (Portsmouth, Kutz & Hill 2024): single scattering and, as a
  * term of its own because it reddens, multiple scattering. */
 static void rough(sd_lobe lobe, global const sd_piece* tables, surface s, v3 to_light, vfloat cos_light, vfloat irradiance,
@@ -140,6 +143,36 @@ static void rough(sd_lobe lobe, global const sd_piece* tables, surface s, v3 to_
     const vfloat single = lobe.mean_through * fma((vfloat)lobe.alpha, beyond / divisor, (vfloat)1.0f);
     const vfloat missing_light = look_up(tables + lobe.table, cell_of(cos_light));
     add_rough(lobe, p, s, irradiance * single, irradiance * (at_view.first * missing_light * lobe.multiple), lit, groups, term);
+}
+#endif
+
+#ifdef HAS_ROUGH_COATED
+/* A direction below the coat, by Snell's law. */
+typedef struct below {
+    vfloat cosine, missing, back; /* and its tables: 1 - albedo; share that the coat sends back */
+} below;
+
+static below below_coat(sd_lobe lobe, global const sd_piece* tables, vfloat cosine) {
+    global const sd_piece* own = tables + lobe.table + COEFFICIENTS(lobe) * SD_CELLS;
+    const table_cell at = cell_of(cosine);
+    below b;
+    b.cosine = sqrt(fma((vfloat)lobe.inv_n2, fma(cosine, cosine, (vfloat)-1.0f), (vfloat)1.0f));
+    b.missing = look_up(own, at);
+    b.back = look_up(own + SD_CELLS, at);
+    return b;
+}
+
+/* The same below a coat, for light that is let through, scattered and let through again; what the coat sends back to the base first is
+ * diffuse, and has terms of its own. */
+static void rough_coated(sd_lobe lobe, global const sd_piece* tables, surface s, v3 to_light, vfloat cos_light, vfloat irradiance,
+                         uint groups, lobe_view at_view, vint lit, paint p, global float* term) {
+    const below view = below_coat(lobe, tables, s.cos_view), light = below_coat(lobe, tables, cos_light);
+    const vfloat beyond = fma(-cos_light, s.cos_view, dot3(to_light, s.view)) * lobe.inv_n2;
+    const vfloat divisor = select((vfloat)1.0f, fmax(light.cosine, view.cosine), beyond > 0.0f);
+    const vfloat through = irradiance * (at_view.first * first_at(lobe, tables, s, to_light, cos_light)) * lobe.inv_n2;
+    const vfloat single = lobe.mean_through * fma((vfloat)lobe.ratio, beyond / divisor, (vfloat)1.0f);
+    term = add_rough(lobe, p, s, through * single, through * (view.missing * light.missing * lobe.multiple), lit, groups, term);
+    add_part(lobe, p, s, through * (view.back * light.back * lobe.rest), lit, groups, lobe.steps, lobe.inside_rest, lobe.second_rest, term);
 }
 #endif
 
@@ -194,6 +227,15 @@ static void uniform_light(sd_lobe lobe, global const sd_piece* tables, float sca
         case SD_LOBE_ROUGH:
             add_rough(lobe, p, s, scale * (1.0f - at_view.first), scale * at_view.first, mask, groups, term);
             break;
+#endif
+#ifdef HAS_ROUGH_COATED
+        case SD_LOBE_ROUGH_COATED: {
+            const below view = below_coat(lobe, tables, s.cos_view);
+            const vfloat through = scale * at_view.first, multiple = view.missing * lobe.escape;
+            term = add_rough(lobe, p, s, through * fmax(1.0f - view.back - multiple, 0.0f), through * multiple, mask, groups, term);
+            add_part(lobe, p, s, through * view.back, mask, groups, lobe.steps, lobe.inside_rest, lobe.second_rest, term);
+            break;
+        }
 #endif
 #ifdef HAS_COATED
         case SD_LOBE_COATED: add_painted(lobe, p, s, scale * at_view.first * lobe.mean_through, mask, groups, term); break;

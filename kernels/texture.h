@@ -29,21 +29,24 @@ static inline void add_to(global float* sums, vfloat v) {
 
 #ifdef HAS_TEXTURE
 /* What a lobe makes of a texel's reflectance rho: rho itself (inside 0), what a coat leaves of it, rho (1 - inside) / (1 - rho
- * inside), or that times rho again (squared). Between two of the texture's wavelengths it is not linear, so it is taken at `steps`
- * places of each interval, each with a term of its own. */
-static inline vfloat of_texel(sd_lobe lobe, int squared, float inside, vfloat rho) {
+ * inside), or that times the same with `second` (rho again where that is 0; nothing where it is negative). Between two of the
+ * texture's wavelengths it is not linear, so it is taken at `steps` places of each interval, each with a term of its own. */
+#ifdef HAS_TEXTURE_CURVE
+static inline vfloat left_by(float inside, vfloat rho) { return rho * (1.0f - inside) / fma(-rho, (vfloat)inside, (vfloat)1.0f); }
+#endif
+static inline vfloat of_texel(float inside, float second, vfloat rho) {
 #ifdef HAS_TEXTURE_CURVE
     if (inside != 0.0f) {
-        const vfloat left = rho * (1.0f - inside) / fma(-rho, (vfloat)inside, (vfloat)1.0f);
-        return squared ? left * rho : left;
+        const vfloat left = left_by(inside, rho);
+        return second >= 0.0f ? left * left_by(second, rho) : left;
     }
 #endif
     return rho;
 }
 
 /* g times what the lobe makes of each band of its texture, to terms [band][step][light group] from `sums` on. */
-static void add_textured(sd_lobe lobe, sd_texture t, global const float* texels, surface s, vfloat g, vint mask, float samples,
-                         uint groups, int steps, int squared, float inside, global float* sums) {
+static void add_textured(sd_texture t, global const float* texels, surface s, vfloat g, vint mask, float samples, uint groups,
+                         int steps, float inside, float second, global float* sums) {
     texture_view view;
     look_at_texture(t, s, mask, samples, &view);
     const size_t next_term = (size_t)groups * SD_BLOCK;
@@ -53,7 +56,7 @@ static void add_textured(sd_lobe lobe, sd_texture t, global const float* texels,
         const int count = band + 1 < t.bands ? steps : 1;
         for (int k = 0; k < count; ++k, sums += next_term) {
             const vfloat rho = k == 0 ? here : fma((vfloat)((float)k / (float)steps), next - here, here);
-            add_to(sums, select((vfloat)0.0f, g * of_texel(lobe, squared, inside, rho), mask));
+            add_to(sums, select((vfloat)0.0f, g * of_texel(inside, second, rho), mask));
         }
         here = next;
     }

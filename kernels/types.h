@@ -100,6 +100,7 @@ typedef struct sd_light {
 #define SD_LOBE_ROUGH 3    /* Oren-Nayar: a term for single and one for multiple scattering */
 #define SD_LOBE_COATED 4   /* Lambert under a coat */
 #define SD_LOBE_REFLECTION 6 /* a mirror's image: functions of the angle times the bands of an image; no lights */
+#define SD_LOBE_ROUGH_COATED 7 /* Oren-Nayar under a coat: terms for single and multiple scattering, and for what comes back from the coat */
 #define SD_LOBE_FACETS 5   /* GGX microfacets whose Fresnel reflectance is a sum of functions of the angle */
 
 /* Functions of a cosine are cubics on cells uniform in the square root of the cosine, which keeps grazing angles apart:
@@ -116,6 +117,8 @@ typedef struct sd_piece {
 /* Tables of a lobe, each SD_CELLS pieces from `table` on.
  *   COATED: what the coat lets through.
  *   ROUGH:  1 - directional albedo of single scattering.
+ *   ROUGH_COATED: what the coat lets through; then, of the direction below the coat that belongs to the one above, 1 - directional
+ *           albedo of single scattering; and the share of what a white base scatters that the coat sends back to it.
  *   REFLECTION: `functions` Fresnel factors over the cosine of the view.
  *   FACETS: 1 - directional albedo were the facets perfect mirrors ("missing"); then `functions` directional albedos; then
  *           `functions` Fresnel factors over the cosine between view and facet. */
@@ -125,15 +128,21 @@ typedef struct sd_lobe {
     sd_uint table;       /* first piece */
     sd_uint functions;   /* FACETS: how many */
     sd_uint multiple_to; /* FACETS: the function whose terms take multiple scattering; == functions: terms of their own */
-    float multiple;      /* factor of missing(view) missing(light), 1/sr; ROUGH: 1 / (1 - mean albedo) */
+    float multiple;      /* factor of missing(view) missing(light), 1/sr; ROUGH, ROUGH_COATED: 1 / (1 - mean albedo) */
     float alpha;         /* FACETS: GGX width, roughness squared, 0 a mirror; ROUGH: B / A of Oren and Nayar */
-    float mean_through;  /* COATED: cosine-weighted mean of what is let through; ROUGH: A */
+    float mean_through;  /* COATED: cosine-weighted mean of what is let through; ROUGH, ROUGH_COATED: A */
     sd_uint texture;     /* DIFFUSE, COATED, ROUGH: 1 + number of the texture that paints the lobe; 0: none */
     sd_uint strength;    /* the same: 1 + number of the texture whose one band multiplies g; 0: none */
     sd_int steps;        /* of a painted lobe: terms for each interval between bands, see texture.h */
-    float inside;        /* COATED: reflectance of the coat from inside; ROUGH: 1 - mean albedo; 0: linear in the texel */
+    float inside;        /* COATED: reflectance of the coat from inside; ROUGH, ROUGH_COATED: 1 - mean albedo; 0: linear in the texel */
     sd_uint mapping;     /* of the texture: SD_MAP_ */
-    float alpha_v;       /* FACETS, and COATED under such: GGX width across the texture's u where alpha is the one along it; 0: alpha all round */
+    float alpha_v;       /* FACETS, and what lies under such: GGX width across the texture's u where alpha is the one along it; 0: alpha all round */
+    /* ROUGH_COATED: */
+    float ratio;         /* B / A */
+    float inv_n2;        /* 1 / the coat's index squared */
+    float escape;        /* of what is scattered more than once: mean share that gets out at once, by the table of 1 - albedo */
+    float rest;          /* 1 / mean over the directions that get out of the share that is sent back */
+    float inside_rest, second_rest; /* the texel's functions for what is sent back, see texture.h */
 } sd_lobe;
 
 #define SD_MAP_SURFACE 0 /* the surface's coordinates */
@@ -172,7 +181,7 @@ typedef struct sd_show {
 
 #ifndef __OPENCL_VERSION__
 static_assert(sizeof(sd_frame) == 96 && sizeof(sd_draw) == 144 && sizeof(sd_vertex) == 16 && sizeof(sd_large) == 64 + 0 &&
-                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 56 && sizeof(sd_texture) == 56 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 24 &&
+                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 80 && sizeof(sd_texture) == 56 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 24 &&
                   sizeof(sd_show) == 36,
               "layout shared with the kernels");
 #endif

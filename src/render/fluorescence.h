@@ -46,6 +46,28 @@ class FluorescentBase {
     FluorescentBase(const Material& material, double inside, Notes& notes);
 
     [[nodiscard]] bool isBlack() const { return black_; }
+    /// M(λo, λi) = factor · x(λi) (1 − ρ(λi)) · λi · e(λo)
+    struct Separable {
+        Curve excitation;  ///< peak 1
+        Curve emission;    ///< in energy, as given
+        double factor;     ///< Q · strength ÷ that integral
+        double strength, yield;
+        bool antiStokes;
+        size_t number;  ///< in the material
+    };
+    /// A Donaldson matrix: value[emission][band].
+    struct Bispectral {
+        std::vector<double> emission, bandCentre, bandFrom, bandTo;
+        std::vector<std::vector<double>> value;  ///< diagonal and what lies below the excitation taken out
+        MatrixChanges changes;
+        [[nodiscard]] double width(size_t column) const { return bandTo[column] - bandFrom[column]; }
+        /// Photons out per photon in of a column (energy: without the ratio of wavelengths).
+        [[nodiscard]] double photonsOut(size_t column) const;
+        [[nodiscard]] double energyOut(size_t column) const;
+        size_t number = 0;  ///< in the material
+    };
+    [[nodiscard]] const std::vector<Separable>& separable() const { return separable_; }
+    [[nodiscard]] const std::vector<Bispectral>& bispectral() const { return bispectral_; }
     /// ρ (1 − r) / (1 − ρ r), r the coat's reflectance from inside.
     [[nodiscard]] Curve reflectance() const;
     /// For each fluorophore ∫ M(λo, λi) E(λi) dλi over a light's irradiance E, as a curve over λo, coat
@@ -57,24 +79,6 @@ class FluorescentBase {
     [[nodiscard]] std::vector<Curve> reradiation(const Curve& light, std::span<const size_t> parts) const;
 
   private:
-    struct Separable {
-        Curve excitation;  ///< peak 1
-        Curve emission;    ///< in energy, as given
-        double factor;     ///< Q · strength ÷ that integral
-        double strength, yield;
-        bool antiStokes;
-        size_t number;  ///< in the material
-    };
-    struct Bispectral {
-        std::vector<double> emission, bandCentre, bandFrom, bandTo;
-        std::vector<std::vector<double>> value;  ///< diagonal and what lies below the excitation taken out
-        MatrixChanges changes;
-        [[nodiscard]] double width(size_t column) const { return bandTo[column] - bandFrom[column]; }
-        /// Photons out per photon in of a column (energy: without the ratio of wavelengths).
-        [[nodiscard]] double photonsOut(size_t column) const;
-        [[nodiscard]] double energyOut(size_t column) const;
-        size_t number = 0;  ///< in the material
-    };
     void addSeparable(const Fluorescence& part);
     /// Fluorophores that share a wavelength cannot each take all of it.
     void checkAbsorption(const Material& material, Notes& notes) const;

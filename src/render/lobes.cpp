@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace spectrad {
@@ -18,19 +19,20 @@ namespace {
 
 constexpr double inversePi = 1 / std::numbers::pi;
 
-/// Tables of a function's coefficients; `missing`: of 1 − the function.
-void append(std::vector<std::vector<sd_piece>>& tables, const DirectionFunction& function,
-            bool missing = false) {
+/// Appends tables of the coefficients of 1 − the function.
+void appendMissing(std::vector<std::vector<sd_piece>>& tables, const DirectionFunction& function) {
     for (size_t k = 0; k < function.size(); ++k) {
         const AngleFunction& f = function[k];
         const double unit = k == 0 ? 1 : 0;
-        if (!missing)
-            tables.push_back(tabulate(f));
-        else if (function.size() == 1)
+        if (function.size() == 1)
             tables.push_back(tabulate([&](double c) { return std::max(0.0, 1 - f(c)); }));
         else
             tables.push_back(tabulate([&](double c) { return unit - f(c); }));
     }
+}
+
+void append(std::vector<std::vector<sd_piece>>& tables, std::vector<std::vector<sd_piece>> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(tables));
 }
 
 Widths widthsOf(const Roughness& roughness) {
@@ -44,20 +46,29 @@ const Curve& one() {
 
 }  // namespace
 
+std::vector<std::vector<sd_piece>> TermBuilder::tablesOf(const DirectionFunction& function) {
+    std::vector<std::vector<sd_piece>> tables;
+    for (const AngleFunction& f : function)
+        tables.push_back(tabulate(f));
+    return tables;
+}
+
 void TermBuilder::addCoatedBase(const Material& material, const Curve& weight,
                                 const DirectionFunction& through, double meanThrough, double inside,
-                                Widths widths) {
+                                double index, Widths widths) {
     Base base;
     base.type = through.empty() ? SD_LOBE_DIFFUSE : SD_LOBE_COATED;
     if (&weight != &one()) base.weight = &weight;
-    if (!through.empty()) {
-        std::vector<std::vector<sd_piece>> tables;
-        append(tables, through);
-        base.table = addTables(tables);
-        base.widths = widths;
-    }
+    base.widths = widths;
     base.meanThrough = meanThrough;
     base.inside = inside;
+    base.index = index;
+    if (material.diffuse && material.diffuse->roughnessDegrees > 0) {
+        addRough(material, base, through);
+        if (material.fluorescence.empty() || only_ == Only::reflection) return;
+        base.reflects = false;
+    }
+    if (!through.empty()) base.table = addTables(tablesOf(through));
     addBase(material, base);
 }
 
@@ -74,9 +85,9 @@ void TermBuilder::addFacets(const std::vector<AngleFunction>& fresnel, const std
     }
     const FacetAlbedos facets = facetAlbedos(fresnel, widths);
     std::vector<std::vector<sd_piece>> tables;
-    append(tables, facets.white, true);
+    appendMissing(tables, facets.white);
     for (const DirectionFunction& f : facets.albedo)
-        append(tables, f);
+        append(tables, tablesOf(f));
     for (const AngleFunction& f : fresnel)
         tables.push_back(tabulate(f));
     sd_lobe lobe = beginLobe(SD_LOBE_FACETS);
@@ -116,7 +127,7 @@ void TermBuilder::addGloss(const Material& material) {
         // What a diffuse base sends up is let through as what comes down, per solid angle inside (n² of it):
         // 1 − r_inside = (1 − r_outside) / n², from the reciprocity of transmission.
         const double inside = std::max(0.0, 1 - coat.meanThrough / (n * n));
-        addCoatedBase(material, weight, coat.through, coat.meanThrough, inside, widths);
+        addCoatedBase(material, weight, coat.through, coat.meanThrough, inside, n, widths);
         if (only_ == Only::fluorescence) continue;
         if (material.gloss->reflects) {
             addReflection(*material.gloss->reflects, {[n](double c) { return fresnelDielectric(c, n); }},
@@ -125,8 +136,8 @@ void TermBuilder::addGloss(const Material& material) {
         }
         sd_lobe lobe = beginLobe(SD_LOBE_FACETS);
         std::vector<std::vector<sd_piece>> tables;
-        append(tables, coat.facets.white, true);
-        append(tables, coat.albedo);
+        appendMissing(tables, coat.facets.white);
+        append(tables, tablesOf(coat.albedo));
         tables.push_back(tabulate([n](double c) { return fresnelDielectric(c, n); }));
         lobe.table = addTables(tables);
         lobe.functions = 1;
@@ -148,7 +159,7 @@ void TermBuilder::addSpecular(const Material& material) {
             Curve::combined({r0}, [nodes, i](std::span<const double> v) { return nodes.weight(i, v[0]); });
         const Curve& weight = nodes.at.size() == 1 ? one() : polynomial;
         const Coat coat = coatOf([r](double c) { return fresnelSchlick(c, r); }, widths);
-        addCoatedBase(material, weight, coat.through, coat.meanThrough, 0, widths);
+        addCoatedBase(material, weight, coat.through, coat.meanThrough, 0, 1, widths);
     }
     if (only_ == Only::fluorescence) return;
     addFacets(
@@ -174,10 +185,6 @@ std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) 
     const auto refuse = [&](const char* what) {
         throw InputError(material.where, "material '" + material.name + "': " + what);
     };
-    const bool rough = material.diffuse && material.diffuse->roughnessDegrees > 0;
-    if (material.diffuse && material.diffuse->texture && material.gloss && !material.fluorescence.empty())
-        refuse(
-            "texture= beside <fluorescence> under a <gloss> is not there yet (reflectance= and select= are)");
     if (material.conductor &&
         (material.diffuse || material.gloss || material.specular || !material.fluorescence.empty()))
         refuse(
@@ -185,8 +192,6 @@ std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) 
             "<fluorescence>");
     if (material.gloss && material.specular)
         refuse("<gloss> and <specular> both describe the surface: give one of them");
-    if (rough && (material.gloss || material.specular || !material.fluorescence.empty()))
-        refuse("roughness= of <diffuse> goes with no coat and no fluorescence");
 
     const std::uint32_t number = beginMaterial();
     if (material.relief && !groups_.empty()) world_.materials.back().relief = reliefTexture(*material.relief);
@@ -206,10 +211,8 @@ std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) 
         addGloss(material);
     else if (material.specular)
         addSpecular(material);
-    else if (rough)
-        addRough(material);
     else if (material.diffuse || !material.fluorescence.empty())
-        addCoatedBase(material, one(), {}, 1, 0, 0);
+        addCoatedBase(material, one(), {}, 1, 0, 1, 0);
     return number;
 }
 

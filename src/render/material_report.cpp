@@ -149,6 +149,13 @@ class Furnace {
             if (lobe.type == SD_LOBE_DIFFUSE) sum += pi * term(0);
             if (lobe.type == SD_LOBE_COATED) sum += pi * term(0) * first * double{lobe.mean_through};
             if (lobe.type == SD_LOBE_ROUGH) sum += pi * (term(0) * (1 - first) + term(1) * first);
+            if (lobe.type == SD_LOBE_ROUGH_COATED) {
+                const sd_piece* own = world_.tables.data() + lobe.table + coefficients(lobe) * SD_CELLS;
+                const double multiple = evaluate(own, cosine) * double{lobe.escape},
+                             back = evaluate(own + SD_CELLS, cosine);
+                sum += pi * first *
+                       (term(0) * std::max(0.0, 1 - back - multiple) + term(1) * multiple + term(2) * back);
+            }
             if (lobe.type == SD_LOBE_FACETS) {
                 for (size_t f = 0; f < lobe.functions; ++f)
                     sum += term(f) * function(1 + f);

@@ -1,11 +1,11 @@
 // The diffuse part of materials, alone or under a coat: of one reflectance, of a texture's, of those that a
 // picture chooses; with fluorophores, which a picture may mask. Everything is linear in what images hold, or
 // made so.
-#include "render/facets.h"
 #include "render/fluorescence.h"
 #include "render/picture_maps.h"
 #include "render/term_table.h"
 #include "render/texels.h"
+#include "render/texture_nodes.h"
 
 #include <fmt/format.h>
 
@@ -17,105 +17,9 @@ namespace spectrad {
 
 namespace {
 
-constexpr double inversePi = 1 / std::numbers::pi;
-
-/// Within an interval between a texture's wavelengths `steps` + 1 even nodes are joined by polynomials of
-/// this degree (a multiple of it is that many pieces): higher ones through even nodes would swing.
-constexpr int highestDegree = 4;
-
-/// 1 at one of a texture's nodes and 0 at all others, `steps` nodes to each interval between wavelengths.
-/// Beyond the wavelengths the end values go on.
-Curve nodeCurve(const std::vector<double>& nm, int steps, size_t node) {
-    if (nm.size() == 1) return Curve::constant(1);
-    const auto per = static_cast<size_t>(steps), degree = static_cast<size_t>(std::min(steps, highestDegree));
-    const size_t last = (nm.size() - 1) * per;
-    const auto place = [&](size_t n) {
-        const size_t interval = std::min(n / per, nm.size() - 2);
-        return nm[interval] + (nm[interval + 1] - nm[interval]) * static_cast<double>(n - interval * per) /
-                                  static_cast<double>(per);
-    };
-    const size_t from = node == 0 ? 0 : (node - 1) / degree * degree,
-                 to = std::min(last, node / degree * degree + degree);
-    if (steps == 1) {
-        std::vector<double> at, value;
-        for (size_t n = from; n <= to; ++n) {
-            at.push_back(nm[n]);
-            value.push_back(n == node ? 1.0 : 0.0);
-        }
-        return Curve::table(at, value, Outside::hold);
-    }
-    // The pieces to the left and to the right of the node, or the one around it.
-    struct Piece {
-        double from, to;
-        std::vector<double> others;
-    };
-    std::vector<Piece> pieces;
-    for (size_t first = from; first < to; first += degree) {
-        Piece piece{place(first), place(first + degree), {}};
-        for (size_t n = first; n <= first + degree; ++n)
-            if (n != node) piece.others.push_back(place(n));
-        pieces.push_back(std::move(piece));
-    }
-    const double own = place(node), begin = place(from), end = place(to);
-    const bool isFirst = node == 0, isLast = node == last;
-    const auto value = [=](double wavelength) {
-        if (wavelength <= begin) return isFirst ? 1.0 : 0.0;
-        if (wavelength >= end) return isLast ? 1.0 : 0.0;
-        const Piece& piece = wavelength < pieces.front().to ? pieces.front() : pieces.back();
-        double product = 1;
-        for (double other : piece.others)
-            product *= (wavelength - other) / (own - other);
-        return product;
-    };
-    const auto breaks = [=](double low, double high, std::vector<double>& out) {
-        for (double edge : {begin, pieces.front().to, end})
-            if (edge > low && edge < high && (out.empty() || out.back() != edge)) out.push_back(edge);
-    };
-    return Curve::formula(value, breaks,
-                          isFirst || isLast ? std::nullopt : std::optional(std::pair(begin, end)));
-}
-size_t nodeCount(const std::vector<double>& nm, int steps) {
-    return (nm.size() - 1) * static_cast<size_t>(steps) + 1;
-}
-
-/// Error of the polynomial through `degree` + 1 even nodes on low…high in place of rho^p (1 − r) / (1 − rho
-/// r), as a share of its value at the high end. With z = 1 / r it is a multiple of 1 / (z − rho), whose error
-/// is Π (rho − node) / Π (z − node) / (z − rho).
-double interpolationError(double low, double high, double r, int p, int degree) {
-    const double z = 1 / r, spacing = (high - low) / degree;
-    double distance = 1;
-    // |Π (rho − node)| is largest in the outermost interval: below degree! spacing^(degree + 1) / 4.
-    for (int k = 0; k <= degree; ++k)
-        distance *= spacing / (z - low - spacing * k) * (k == 0 ? 0.25 : k);
-    const double scale = (1 - r) / r * (p == 2 ? z * z : z);
-    const double value = std::pow(high, p) * (1 - r) / (1 - high * r);
-    return value > 0 ? scale * distance / (z - high) / value : 0;
-}
-
-/// How finely a texture's intervals are cut so that what is no longer linear in them is off by less than
-/// 1e-6.
-int stepsFor(const World& world, const sd_texture& t, double inside, int power) {
-    constexpr double tolerance = 1e-6;
-    constexpr int most = 16 * highestDegree;
-    if (inside <= 0) return 1;
-    int steps = 1;
-    const auto enough = [&](double low, double high) {
-        const int degree = std::min(steps, highestDegree);
-        const double piece = (high - low) * degree / steps;  // the error is largest in the last one
-        return interpolationError(high - piece, high, inside, power, degree) <= tolerance;
-    };
-    const auto bands = static_cast<size_t>(t.bands);
-    const size_t texels = static_cast<size_t>(t.width) * static_cast<size_t>(t.height);
-    for (size_t i = 0; i < texels; ++i) {
-        const float* texel = world.texels.data() + t.first + i * bands;
-        for (size_t b = 0; b + 1 < bands; ++b) {
-            const double low = std::min(texel[b], texel[b + 1]),
-                         high = std::min<double>(std::max(texel[b], texel[b + 1]), 1);
-            while (steps < most && !enough(std::min(low, high), high))
-                steps += steps < highestDegree ? 1 : highestDegree;
-        }
-    }
-    return steps;
+/// What a light's irradiance counts for a base, where kernels multiply by what a coat lets through.
+double passedOn(double meanThrough, const LightGroup& group) {
+    return group.factor * std::numbers::inv_pi / std::max(meanThrough, 1e-12);
 }
 
 /// Where radiances come from other bands than they go to, the signed values between sharp lines would leave
@@ -247,9 +151,13 @@ sd_lobe TermBuilder::beginBase(const Base& base) const {
     return lobe;
 }
 
+double TermBuilder::glowFactor(const Base& base, const LightGroup& group) {
+    return passedOn(base.meanThrough, group) * base.glowShare;
+}
+
 void TermBuilder::addBaseTerm(const Base& base, const LightGroup& group, const std::vector<Curve>& reflected,
                               const std::vector<Curve>& glow, double sign) {
-    const double factor = group.factor * inversePi / std::max(base.meanThrough, 1e-12);
+    const double factor = passedOn(base.meanThrough, group);
     std::vector<Summand> sum;
     const auto add = [&](std::vector<const Curve*> product, double f) {
         if (base.weight) product.push_back(base.weight);
@@ -260,7 +168,7 @@ void TermBuilder::addBaseTerm(const Base& base, const LightGroup& group, const s
             add({&group.spectrum, &curve}, factor);
     if (only_ != Only::reflection)
         for (const Curve& curve : glow)
-            add({&curve}, factor * sign);
+            add({&curve}, glowFactor(base, group) * sign);
     // A polynomial's weight, and what a texture takes from a glow, are signed by nature; else only noise of a
     // measured matrix is.
     addTerm(sum, !base.weight && sign > 0);
@@ -286,12 +194,17 @@ void TermBuilder::addBase(const Material& material, const Base& base) {
     for (size_t i = 0; i < material.fluorescence.size(); ++i)
         if (!material.fluorescence[i].mask) everywhere.push_back(i);
 
-    sd_lobe lobe = beginBase(base);
-    lobe.texture = texture;
-    for (const FluorescentBase& b : bases)
-        for (const LightGroup& group : groups_)
-            addBaseTerm(base, group, {b.reflectance()}, b.reradiation(group.spectrum, everywhere));
-    endLobe(lobe);
+    if (base.reflects || !everywhere.empty()) {
+        sd_lobe lobe = beginBase(base);
+        lobe.texture = texture;
+        for (const FluorescentBase& b : bases) {
+            const std::vector<Curve> reflected =
+                base.reflects ? std::vector{b.reflectance()} : std::vector<Curve>{};
+            for (const LightGroup& group : groups_)
+                addBaseTerm(base, group, reflected, b.reradiation(group.spectrum, everywhere));
+        }
+        endLobe(lobe);
+    }
     if (only_ == Only::reflection) return;
     for (size_t i = 0; i < material.fluorescence.size(); ++i) {
         if (!material.fluorescence[i].mask) continue;
@@ -316,6 +229,7 @@ void TermBuilder::addTexturedBase(const Material& material, const Base& base) {
     const sd_texture& texture = world_.textures[image.number - 1];
     const int steps = stepsFor(world_, texture, base.inside, 1);
     const size_t nodes = nodeCount(image.nm, steps);
+    const bool together = base.inside <= 0;  // else what glows is not linear in the texel either
     Material black = material;
     black.diffuse.reset();
     const FluorescentBase onBlack(black, 0, notes_);
@@ -323,7 +237,7 @@ void TermBuilder::addTexturedBase(const Material& material, const Base& base) {
     Material separable = material;
     std::erase_if(separable.fluorescence, [](const Fluorescence& part) { return !part.matrixFile.empty(); });
     std::vector<FluorescentBase> absorbing;
-    if (!separable.fluorescence.empty()) {
+    if (together && !separable.fluorescence.empty()) {
         for (size_t t = 0; t < nodes; ++t) {
             const Curve reflecting = Curve::combined({nodeCurve(image.nm, 1, t)},
                                                      [](std::span<const double> v) { return 1 - v[0]; });
@@ -338,19 +252,28 @@ void TermBuilder::addTexturedBase(const Material& material, const Base& base) {
     };
     const auto unmasked = [](const Fluorescence& part) { return !part.mask; };
 
-    sd_lobe lobe = beginBase(base);
-    lobe.texture = image.number;
-    lobe.inside = static_cast<float>(base.inside);
-    lobe.steps = steps;
-    for (size_t t = 0; t < nodes; ++t)
-        for (const LightGroup& group : groups_)
-            addBaseTerm(base, group, {nodeCurve(image.nm, steps, t)},
-                        absorbing.empty()
-                            ? std::vector<Curve>{}
-                            : absorbing[t].reradiation(group.spectrum, numbers(separable, unmasked)),
-                        -1);
-    endLobe(lobe);
+    if (base.reflects || !absorbing.empty()) {
+        sd_lobe lobe = beginBase(base);
+        lobe.texture = image.number;
+        lobe.inside = static_cast<float>(base.inside);
+        lobe.steps = steps;
+        for (size_t t = 0; t < nodes; ++t) {
+            const std::vector<Curve> reflected =
+                base.reflects ? std::vector{nodeCurve(image.nm, steps, t)} : std::vector<Curve>{};
+            for (const LightGroup& group : groups_)
+                addBaseTerm(base, group, reflected,
+                            absorbing.empty()
+                                ? std::vector<Curve>{}
+                                : absorbing[t].reradiation(group.spectrum, numbers(separable, unmasked)),
+                            -1);
+        }
+        endLobe(lobe);
+    }
     if (only_ == Only::reflection) return;
+    if (!together) {
+        addTexturedGlow(material, base, image);
+        return;
+    }
     const std::vector<size_t> everywhere = numbers(material, unmasked);
     if (!everywhere.empty()) {
         const sd_lobe glowing = beginBase(base);
@@ -377,46 +300,6 @@ void TermBuilder::addTexturedBase(const Material& material, const Base& base) {
                 addBaseTerm(base, group, {}, absorbing[t].reradiation(group.spectrum, std::array{own}), -1);
         endLobe(taken);
     }
-}
-
-void TermBuilder::addRough(const Material& material) {
-    if (only_ == Only::fluorescence) return;
-    const OrenNayar model = orenNayar(material.diffuse->roughnessDegrees);
-    sd_lobe lobe = beginLobe(SD_LOBE_ROUGH);
-    lobe.table = addTables({tabulate([&](double c) { return std::max(0.0, 1 - model.albedo(c)); })});
-    lobe.alpha = static_cast<float>(model.b / model.a);
-    lobe.mean_through = static_cast<float>(model.a);
-    lobe.multiple = static_cast<float>(1 / std::max(1 - model.mean, 1e-12));
-    const double mean = model.mean;
-    std::vector<Curve> single;
-    if (material.diffuse->texture) {
-        const Image image = spectralTexture(*material.diffuse->texture);
-        lobe.texture = image.number;
-        lobe.inside = static_cast<float>(1 - mean);
-        lobe.steps = stepsFor(world_, world_.textures[image.number - 1], 1 - mean, 2);
-        for (size_t t = 0; t < nodeCount(image.nm, 1); ++t)
-            addGroupTerms(nodeCurve(image.nm, 1, t), inversePi);
-        for (size_t t = 0; t < nodeCount(image.nm, lobe.steps); ++t)
-            addGroupTerms(nodeCurve(image.nm, lobe.steps, t), inversePi);
-        endLobe(lobe);
-        return;
-    }
-    if (material.diffuse->select) {
-        lobe.texture = shareTexture(*material.diffuse->select);
-        for (const Select::Choice& choice : material.diffuse->select->choices)
-            single.push_back(choice.reflectance.curve());
-    } else {
-        single.push_back(material.diffuse->reflectance->curve());
-    }
-    for (const Curve& curve : single)
-        addGroupTerms(curve, inversePi);
-    for (const Curve& curve : single)
-        addGroupTerms(Curve::combined({curve},
-                                      [mean](std::span<const double> v) {
-                                          return v[0] * v[0] * mean / (1 - v[0] * (1 - mean));
-                                      }),
-                      inversePi);
-    endLobe(lobe);
 }
 
 }  // namespace spectrad

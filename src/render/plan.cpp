@@ -143,7 +143,8 @@ std::vector<std::string> definesOf(const World& world, int samples, bool baked) 
         defines.insert(switches[static_cast<size_t>(light.type)]);
     }
     for (const sd_lobe& lobe : world.lobes) {
-        if (lobe.type == SD_LOBE_ROUGH) defines.insert("HAS_ROUGH");
+        if (lobe.type == SD_LOBE_ROUGH || lobe.type == SD_LOBE_ROUGH_COATED) defines.insert("HAS_ROUGH");
+        if (lobe.type == SD_LOBE_ROUGH_COATED) defines.insert("HAS_ROUGH_COATED");
         if (lobe.type == SD_LOBE_COATED) defines.insert("HAS_COATED");
         if (lobe.type == SD_LOBE_FACETS) defines.insert("HAS_FACETS");
         if (lobe.alpha_v != 0) defines.insert("HAS_ANISOTROPY");

@@ -85,8 +85,15 @@ class TermBuilder {
     [[nodiscard]] sd_lobe beginLobe(int type) const;
     void endLobe(const sd_lobe& lobe);
     std::uint32_t addTables(const std::vector<std::vector<sd_piece>>& tables);
+    /// Tables of a function's coefficients.
+    static std::vector<std::vector<sd_piece>> tablesOf(const DirectionFunction& function);
     static void setWidths(sd_lobe& lobe, Widths widths);
 
+    /// Images in the world, each once however often it is used: 1 + its number, the wavelengths of its bands.
+    struct Image {
+        std::uint32_t number = 0;
+        std::vector<double> nm;
+    };
     /// What the diffuse part of a material lies under.
     struct Base {
         int type = SD_LOBE_DIFFUSE;     ///< or SD_LOBE_COATED
@@ -94,10 +101,17 @@ class TermBuilder {
         std::uint32_t table = 0;
         double meanThrough = 1, inside = 0;  ///< of the coat
         Widths widths = 0;                   ///< the coat's
+        double index = 1;                    ///< the coat's; 1 where it is not known
+        bool reflects = true;                ///< false: a lobe of its own does, only what glows is asked for
+        double glowShare = 1;                ///< of what fluorophores would send out
     };
     void addBase(const Material& material, const Base& base);
     void addTexturedBase(const Material& material, const Base& base);
-    void addRough(const Material& material);
+    void addTexturedGlow(const Material& material, const Base& base, const Image& image);
+    /// Of the spectra of what a base sends out.
+    [[nodiscard]] static double glowFactor(const Base& base, const LightGroup& group);
+    /// Oren–Nayar's part of a base, its term's factors included; what glows is left to addBase().
+    void addRough(const Material& material, Base& base, const DirectionFunction& through);
     [[nodiscard]] sd_lobe beginBase(const Base& base) const;
     void addBaseTerm(const Base& base, const LightGroup& group, const std::vector<Curve>& reflected,
                      const std::vector<Curve>& glow, double sign = 1);
@@ -105,18 +119,13 @@ class TermBuilder {
     void addSpecular(const Material& material);
     void addConductor(const Material& material);
     void addGlowing(const TextureUse& use, double factor);
-    /// Images in the world, each once however often it is used: 1 + its number, the wavelengths of its bands.
-    struct Image {
-        std::uint32_t number = 0;
-        std::vector<double> nm;
-    };
     const Image& spectralTexture(const TextureUse& use);
     std::uint32_t strengthTexture(const TextureUse& use);
     std::uint32_t shareTexture(const Select& select);
     std::uint32_t reliefTexture(const Relief& relief);
     /// Diffuse base under a coat, its terms weighted by `weight` (one factor of the spectrum).
     void addCoatedBase(const Material& material, const Curve& weight, const DirectionFunction& through,
-                       double meanThrough, double inside, Widths widths);
+                       double meanThrough, double inside, double index, Widths widths);
     void addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra,
                    Widths widths, const std::optional<TextureUse>& reflects);
     void addReflection(const TextureUse& use, const std::vector<AngleFunction>& fresnel,

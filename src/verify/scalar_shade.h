@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace spectrad::scalar {
 
@@ -63,6 +64,18 @@ Real firstAt(const sd_lobe& lobe, const sd_piece* table, const SurfaceOf<Real>& 
              Real cosine) {
     if (lobe.alpha_v == 0) return lookUp(table, cellOf(cosine));
     return std::fmax(lookUp(lobe, table, cellOf(cosine), azimuthOf(lobe, localOf(s, direction))), Real(0.0));
+}
+
+/// A direction below a coat, and its tables.
+template <typename Real>
+struct BelowOf {
+    Real cosine, missing, back;
+};
+template <typename Real>
+BelowOf<Real> belowCoat(const sd_lobe& lobe, const sd_piece* table, Real cosine) {
+    const sd_piece* own = table + (lobe.alpha_v == 0 ? 1 : SD_AZIMUTHS) * SD_CELLS;
+    return {std::sqrt(std::fma(Real(lobe.inv_n2), std::fma(cosine, cosine, -Real(1.0)), Real(1.0))),
+            lookUp(own, cellOf(cosine)), lookUp(own + SD_CELLS, cellOf(cosine))};
 }
 
 template <typename Real>
@@ -146,9 +159,12 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
         const sd_lobe& lobe = world.lobes[material.first_lobe + l];
         constexpr size_t callsALight = 64;
         const auto samples = static_cast<Real>(plan.samples);
+        const auto leftBy = [](Real inside, Real rho) {
+            return rho * (Real(1.0) - inside) / std::fma(-rho, inside, Real(1.0));
+        };
         /// Terms of a painted lobe from `term` on; returns how many blocks of light groups they are.
         const auto paintedAt = [&](const SurfaceOf<Real>& at, size_t base, std::uint32_t term, Real g,
-                                   int steps, bool squared, Real inside, std::uint32_t stride) {
+                                   int steps, Real inside, Real second, std::uint32_t stride) {
             const sd_texture& t = world.textures[lobe.texture - 1];
             std::uint32_t block = 0;
             for (int band = 0; band < t.bands; ++band) {
@@ -159,40 +175,43 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
                         k == 0 ? here
                                : std::fma(static_cast<Real>(k) / static_cast<Real>(steps), next - here, here);
                     Real left = rho;
-                    if (inside != 0) left = rho * (Real(1.0) - inside) / std::fma(-rho, inside, Real(1.0));
-                    if (inside != 0 && squared) left *= rho;
+                    if (inside != 0) left = leftBy(inside, rho);
+                    if (inside != 0 && second >= 0) left *= leftBy(second, rho);
                     add(base + block, term + block * stride, g * left);
                 }
             }
             return block;
-        };
-        const auto painted = [&](size_t base, std::uint32_t term, Real g, int steps, bool squared,
-                                 Real inside, std::uint32_t stride) {
-            return paintedAt(s, base, term, g, steps, squared, inside, stride);
         };
         const auto paint = [&](size_t base, std::uint32_t term, Real g, std::uint32_t stride) {
             if (lobe.strength != 0) g = g * texel(world, world.textures[lobe.strength - 1], s, samples, 0);
             if (lobe.texture == 0)
                 add(base, term, g);
             else
-                painted(base, term, g, lobe.steps, false, lobe.inside, stride);
+                paintedAt(s, base, term, g, lobe.steps, lobe.inside, Real(-1.0), stride);
         };
-        const auto paintRough = [&](size_t base, std::uint32_t term, Real single, Real multiple) {
-            if (lobe.texture == 0) {
-                add(base, term, single);
-                add(base + 1, term + groups, multiple);
-            } else {
-                const std::uint32_t blocks = painted(base, term, single, 1, false, 0, groups);
-                painted(base + blocks, term + blocks * groups, multiple, lobe.steps, true, lobe.inside,
-                        groups);
-            }
+        /// One part of a rough lobe; moves on to the next part's terms.
+        const auto paintPart = [&](size_t& at, std::uint32_t& term, Real g, int steps, Real inside,
+                                   Real second) {
+            std::uint32_t blocks = 1;
+            if (lobe.texture == 0)
+                add(at, term, g);
+            else
+                blocks = paintedAt(s, at, term, g, steps, inside, second, groups);
+            at += blocks;
+            term += blocks * groups;
+        };
+        const auto paintRough = [&](size_t at, std::uint32_t term, Real single, Real multiple,
+                                    std::optional<Real> rest) {
+            paintPart(at, term, single, 1, 0, 0);
+            paintPart(at, term, multiple, lobe.steps, lobe.inside, 0);
+            if (rest) paintPart(at, term, *rest, lobe.steps, lobe.inside_rest, lobe.second_rest);
         };
         if (lobe.type == SD_LOBE_REFLECTION) {
             const auto bands = static_cast<std::uint32_t>(world.textures[lobe.texture - 1].bands);
             for (std::uint32_t f = 0; f < lobe.functions; ++f)
                 paintedAt(mirroredAt(world, lobe, frame, s), call + f * bands, lobe.term + f * bands,
-                          lookUp(world.tables.data() + lobe.table + f * SD_CELLS, cellOf(s.cosView)), 1,
-                          false, 0, 1);
+                          lookUp(world.tables.data() + lobe.table + f * SD_CELLS, cellOf(s.cosView)), 1, 0,
+                          Real(-1.0), 1);
             call += callsALight;
             continue;
         }
@@ -216,7 +235,13 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
                     continue;
                 if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, light.scale, groups);
                 if (lobe.type == SD_LOBE_ROUGH)
-                    paintRough(base, term, light.scale * (Real(1.0) - first), light.scale * first);
+                    paintRough(base, term, light.scale * (Real(1.0) - first), light.scale * first, {});
+                if (lobe.type == SD_LOBE_ROUGH_COATED) {
+                    const BelowOf<Real> view = belowCoat(lobe, table, s.cosView);
+                    const Real through = light.scale * first, multiple = view.missing * lobe.escape;
+                    paintRough(base, term, through * std::fmax(Real(1.0) - view.back - multiple, Real(0.0)),
+                               through * multiple, through * view.back);
+                }
                 if (lobe.type == SD_LOBE_COATED)
                     paint(base, term, light.scale * first * lobe.mean_through, groups);
                 if (lobe.type == SD_LOBE_FACETS) {
@@ -243,7 +268,19 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
                 const Real divisor = beyond > 0 ? std::fmax(cosLight, s.cosView) : Real(1.0);
                 const Real single = lobe.mean_through * std::fma(lobe.alpha, beyond / divisor, Real(1.0));
                 paintRough(base, term, irradiance * single,
-                           irradiance * (first * lookUp(table, cellOf(cosLight)) * lobe.multiple));
+                           irradiance * (first * lookUp(table, cellOf(cosLight)) * lobe.multiple), {});
+            }
+            if (lobe.type == SD_LOBE_ROUGH_COATED) {
+                const BelowOf<Real> view = belowCoat(lobe, table, s.cosView),
+                                    below = belowCoat(lobe, table, cosLight);
+                const Real beyond = std::fma(-cosLight, s.cosView, dot(toLight, s.view)) * lobe.inv_n2;
+                const Real divisor = beyond > 0 ? std::fmax(below.cosine, view.cosine) : Real(1.0);
+                const Real through =
+                    irradiance * (first * firstAt(lobe, table, s, toLight, cosLight)) * lobe.inv_n2;
+                const Real single = lobe.mean_through * std::fma(lobe.ratio, beyond / divisor, Real(1.0));
+                paintRough(base, term, through * single,
+                           through * (view.missing * below.missing * lobe.multiple),
+                           through * (view.back * below.back * lobe.rest));
             }
             if (lobe.type == SD_LOBE_FACETS && lobe.alpha != 0) {
                 const VectorOf<Real> h =

@@ -33,9 +33,12 @@ void addLobe(Plan& plan, int type, std::uint32_t& term, double alpha, std::uint3
     lobe.alpha = static_cast<float>(alpha);
     lobe.alpha_v = static_cast<float>(alphaAcross);
     lobe.mean_through = 0.9f;
+    lobe.ratio = 0.37f, lobe.inv_n2 = 0.44f, lobe.escape = 0.6f, lobe.rest = 1.7f;
+    lobe.inside_rest = 0.7f, lobe.second_rest = 0.2f;
     const size_t each = alphaAcross == 0 ? 1 : SD_AZIMUTHS;
-    const size_t tables = type == SD_LOBE_REFLECTION ? functions
-                          : type == SD_LOBE_FACETS   ? (1 + functions) * each + functions
+    const size_t tables = type == SD_LOBE_REFLECTION     ? functions
+                          : type == SD_LOBE_FACETS       ? (1 + functions) * each + functions
+                          : type == SD_LOBE_ROUGH_COATED ? each + 2
                           : type == SD_LOBE_EMISSION || type == SD_LOBE_DIFFUSE ? 0
                                                                                 : each;
     for (size_t t = 0; t < tables; ++t) {
@@ -48,9 +51,10 @@ void addLobe(Plan& plan, int type, std::uint32_t& term, double alpha, std::uint3
         world.tables.insert(world.tables.end(), table.begin(), table.end());
     }
     world.lobes.push_back(lobe);
-    const std::uint32_t blocks = type == SD_LOBE_FACETS  ? functions + (multipleApart ? 1 : 0)
-                                 : type == SD_LOBE_ROUGH ? 2
-                                                         : 1;
+    const std::uint32_t blocks = type == SD_LOBE_FACETS         ? functions + (multipleApart ? 1 : 0)
+                                 : type == SD_LOBE_ROUGH_COATED ? 3
+                                 : type == SD_LOBE_ROUGH        ? 2
+                                                                : 1;
     constexpr std::uint32_t imageBands = 4;
     term += type == SD_LOBE_REFLECTION ? functions * imageBands
             : type == SD_LOBE_EMISSION ? 1
@@ -94,9 +98,18 @@ void addMaterials(Plan& plan, bool backdrop) {
         addLobe(plan, SD_LOBE_FACETS, term, 0.2, 1, false, 0.5), end(term);
     term = 0;
     begin(), addLobe(plan, SD_LOBE_FACETS, term, 0.4, 2, true, 0.15), end(term);
-    // Lambert, coat and rough diffuse over textures: every filter, both ways beyond the border, turned,
-    // masked; and glowing.
-    for (const TextureFilter filter : {TextureFilter::bilinear, TextureFilter::nearest, TextureFilter::mip}) {
+    // Rough diffuse under coats, one of them brushed.
+    for (const double across : {0.0, 0.5}) {
+        term = 0;
+        begin(), addLobe(plan, SD_LOBE_ROUGH_COATED, term, 0.2, 0, false, across),
+            addLobe(plan, SD_LOBE_FACETS, term, 0.2, 1, false, across), end(term);
+    }
+    // Lambert, coat and rough diffuse, bare and coated, over textures: every filter, both ways beyond the
+    // border, turned, masked; and glowing.
+    for (const auto& [type, filter] : {std::pair{SD_LOBE_DIFFUSE, TextureFilter::bilinear},
+                                       {SD_LOBE_COATED, TextureFilter::nearest},
+                                       {SD_LOBE_ROUGH, TextureFilter::mip},
+                                       {SD_LOBE_ROUGH_COATED, TextureFilter::bilinear}}) {
         TextureUse use;
         use.filter = filter;
         use.repeat = filter != TextureFilter::nearest;
@@ -109,21 +122,19 @@ void addMaterials(Plan& plan, bool backdrop) {
         sd_texture t = world.textures.back();
         t.bands = 1, t.width = 7, t.levels = 1;
         world.textures.push_back(t);
-        const int steps = filter == TextureFilter::nearest ? 3 : filter == TextureFilter::mip ? 2 : 1;
+        const int steps = type == SD_LOBE_COATED ? 3 : type == SD_LOBE_DIFFUSE ? 1 : 2;
         const std::uint32_t blocks = static_cast<std::uint32_t>(3 * steps + 1);
         term = 0;
         begin();
-        addLobe(plan,
-                filter == TextureFilter::nearest ? SD_LOBE_COATED
-                : filter == TextureFilter::mip   ? SD_LOBE_ROUGH
-                                                 : SD_LOBE_DIFFUSE,
-                term, 0.4);
+        addLobe(plan, type, term, 0.4);
         sd_lobe& lobe = world.lobes.back();
         lobe.texture = number;
-        lobe.strength = filter == TextureFilter::bilinear ? number + 1 : 0;
-        lobe.inside = filter == TextureFilter::bilinear ? 0.0f : 0.55f;
+        lobe.strength = type == SD_LOBE_DIFFUSE ? number + 1 : 0;
+        lobe.inside = type == SD_LOBE_DIFFUSE ? 0.0f : 0.55f;
         lobe.steps = steps;
-        term = plan.groups * (filter == TextureFilter::mip ? 4 + blocks : blocks);
+        term = plan.groups * (type == SD_LOBE_ROUGH          ? 4 + blocks
+                              : type == SD_LOBE_ROUGH_COATED ? 4 + 2 * blocks
+                                                             : blocks);
         addLobe(plan, SD_LOBE_EMISSION, term, 0);
         world.lobes.back().texture = number;
         world.lobes.back().steps = 1;
@@ -202,12 +213,14 @@ Plan emptyPlan(int samples, bool orthographic, int width, int height) {
     plan.view.worldToCamera = Affine::rotation({1, 2, 3}, 40);
     plan.view.pixelsPerSlope = orthographic ? height / 4.0 : height * 0.9;
     plan.wavelengths.nm = {400, 450, 500, 550, 600, 650, 700};
-    plan.defines = {
-        "HAS_COATED",        "HAS_FACETS",        "HAS_ROUGH",
-        "HAS_ANISOTROPY",    "HAS_TEXTURE",       "HAS_UNIFORM",
-        "HAS_POINT",         "HAS_MIP",           "HAS_RELIEF",
-        "HAS_TEXTURE_CURVE", "HAS_TEXTURE_PLACE", "HAS_MAPPING",
-        "HAS_SPOT",          "HAS_DIRECTIONAL",   "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
+    plan.defines = {"HAS_COATED",        "HAS_FACETS",
+                    "HAS_ROUGH",         "HAS_ROUGH_COATED",
+                    "HAS_ANISOTROPY",    "HAS_TEXTURE",
+                    "HAS_UNIFORM",       "HAS_POINT",
+                    "HAS_MIP",           "HAS_RELIEF",
+                    "HAS_TEXTURE_CURVE", "HAS_TEXTURE_PLACE",
+                    "HAS_MAPPING",       "HAS_SPOT",
+                    "HAS_DIRECTIONAL",   "SLOTS=" + std::to_string(lanePattern(samples, 1).slots)};
     sd_draw draw{};
     draw.to_camera[0] = draw.to_camera[5] = draw.to_camera[10] = 1;
     draw.normal[0] = draw.normal[4] = draw.normal[8] = 1;

@@ -85,10 +85,39 @@ TEST_CASE(
         CHECK(low >= 0.99f);
         CHECK(high <= 1 + 1e-3f);
     }
+    // A rough base under coats: by the coat's roughness, and by its own.
+    const std::string matt = "<diffuse reflectance=\"constant:1\" roughness=\"50\"/>",
+                      steps = "<diffuse reflectance=\"constant:1\" roughness=\"{}\"/>";
+    for (const auto& [lobes, factor] :
+         {std::pair{matt + "<gloss ior=\"1.5\" roughness=\"{}\"/>", 1.0},
+          {matt + "<gloss ior=\"cauchy:1.6,0.02\" roughness=\"{}\"/>", 1.0},
+          {matt + "<specular reflectance=\"400:0.03 700:0.97\" roughness=\"{}\"/>", 1.0},
+          {steps + "<gloss ior=\"1.5\" roughness=\"0.3\"/>", 90.0},
+          {steps + "<gloss ior=\"2.4\" roughness=\"0 0\"/>", 90.0},
+          {steps + "<gloss ior=\"1.5\" roughness=\"0.2 0.6\"/>", 90.0}}) {
+        const auto [low, high] = rangeOf(furnace(lobes, factor));
+        INFO(lobes << ": " << low << " to " << high);
+        CHECK(low >= 0.99f);
+        CHECK(high <= 1 + 1e-3f);
+    }
     const auto [least, most] = rangeOf(furnace("<diffuse reflectance=\"constant:1\" roughness=\"{}\"/>", 90));
     INFO("Oren-Nayar: " << least << " to " << most);
     CHECK(least >= 0.99f);
     CHECK(most <= 1 + 1e-3f);
+}
+
+TEST_CASE("under a coat a base that gets smoother becomes the smooth one") {
+    if (!haveDevice()) return;
+    for (const std::string coat : {"<gloss ior=\"1.5\" roughness=\"{}\"/>",
+                                   "<specular reflectance=\"400:0.03 700:0.97\" roughness=\"{}\"/>"}) {
+        const Image rough = furnace("<diffuse reflectance=\"400:0.2 700:0.9\" roughness=\"0.05\"/>" + coat),
+                    smooth = furnace("<diffuse reflectance=\"400:0.2 700:0.9\"/>" + coat);
+        double worst = 0;
+        for (size_t i = 0; i < rough.values.size(); ++i)
+            worst = std::max<double>(worst, std::abs(rough.values[i] - smooth.values[i]));
+        CAPTURE(coat);
+        CHECK(worst < 1e-4);
+    }
 }
 
 TEST_CASE("what does not reflect all light stays below 1, and darker bases are darker") {

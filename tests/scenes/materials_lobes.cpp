@@ -58,6 +58,13 @@ double Reflectance::fresnel(const sd_lobe& lobe, size_t number, double cosine) c
         plan_.world.tables.data() + lobe.table + ((1 + lobe.functions) * each + number) * SD_CELLS, cosine);
 }
 
+Reflectance::Below Reflectance::below(const sd_lobe& lobe, double cosine) const {
+    const sd_piece* own =
+        plan_.world.tables.data() + lobe.table + (lobe.alpha_v != 0 ? SD_AZIMUTHS : 1) * SD_CELLS;
+    return {std::sqrt(1 - double{lobe.inv_n2} * (1 - cosine * cosine)), evaluate(own, cosine),
+            evaluate(own + SD_CELLS, cosine)};
+}
+
 double Reflectance::facets(Vec3 view, Vec3 light) const {
     double sum = 0;
     for (size_t l = 0; l < material_.lobes; ++l) {
@@ -83,6 +90,16 @@ double Reflectance::others(Vec3 view, Vec3 light) const {
             sum += term(lobe, 0) * double{lobe.mean_through} * (1 + double{lobe.alpha} * beyond / divisor);
             sum += term(lobe, 1) * both * double{lobe.multiple};
         }
+        if (lobe.type == SD_LOBE_ROUGH_COATED) {
+            const Below v = below(lobe, view.z), in = below(lobe, light.z);
+            const double beyond = (dot(view, light) - view.z * light.z) * double{lobe.inv_n2};
+            const double divisor = beyond > 0 ? std::max(v.cosine, in.cosine) : 1;
+            const double through = both * double{lobe.inv_n2};
+            sum += through * term(lobe, 0) * double{lobe.mean_through} *
+                   (1 + double{lobe.ratio} * beyond / divisor);
+            sum += through * term(lobe, 1) * v.missing * in.missing * double{lobe.multiple};
+            sum += through * term(lobe, 2) * v.back * in.back * double{lobe.rest};
+        }
         if (lobe.type == SD_LOBE_FACETS) sum += term(lobe, lobe.multiple_to) * both * double{lobe.multiple};
     }
     return sum;
@@ -99,6 +116,13 @@ double Reflectance::albedo(Vec3 view) const {
         const double first = function(lobe, 0, view);
         if (lobe.type == SD_LOBE_COATED) sum += pi * term(lobe, 0) * first * double{lobe.mean_through};
         if (lobe.type == SD_LOBE_ROUGH) sum += pi * (term(lobe, 0) * (1 - first) + term(lobe, 1) * first);
+        if (lobe.type == SD_LOBE_ROUGH_COATED) {
+            const Below v = below(lobe, view.z);
+            const double multiple = v.missing * double{lobe.escape};
+            sum +=
+                pi * first *
+                (term(lobe, 0) * (1 - v.back - multiple) + term(lobe, 1) * multiple + term(lobe, 2) * v.back);
+        }
         if (lobe.type == SD_LOBE_FACETS) {
             for (size_t f = 0; f < lobe.functions; ++f)
                 sum += term(lobe, f) * function(lobe, 1 + f, view);

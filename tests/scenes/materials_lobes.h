@@ -29,6 +29,11 @@ class Reflectance {
     [[nodiscard]] double facetsOf(const sd_lobe& lobe, Vec3 view, Vec3 light) const;
     /// Function `number` of a lobe in a direction; u is along x.
     [[nodiscard]] double function(const sd_lobe& lobe, size_t number, Vec3 direction) const;
+    /// Below the coat of a rough base: the direction, and its tables.
+    struct Below {
+        double cosine, missing, back;
+    };
+    [[nodiscard]] Below below(const sd_lobe& lobe, double cosine) const;
     [[nodiscard]] double fresnel(const sd_lobe& lobe, size_t number, double cosine) const;
     [[nodiscard]] double term(const sd_lobe& lobe, size_t function) const;
 

@@ -16,6 +16,7 @@ using namespace spectrad::test;
 namespace {
 
 const std::string paint = "<diffuse reflectance=\"400:0.3 700:0.9\"/>";
+const std::string matt = "<diffuse reflectance=\"400:0.3 700:0.9\" roughness=\"40\"/>";
 const std::vector<std::string> lobes{
     paint,
     "<diffuse reflectance=\"400:0.3 700:0.9\" roughness=\"30\"/>",
@@ -33,6 +34,10 @@ const std::vector<std::string> lobes{
     "<conductor ior=\"metals/Au\" roughness=\"0.2 0.6\"/>",
     paint + "<gloss ior=\"1.5\" roughness=\"0.8 0.25\"/>",
     "<specular reflectance=\"constant:1\" roughness=\"0.2 1\"/>",
+    matt + "<gloss ior=\"1.5\" roughness=\"0.3\"/>",
+    "<diffuse reflectance=\"constant:1\" roughness=\"90\"/><gloss ior=\"2.4\" roughness=\"0.6\"/>",
+    matt + "<gloss ior=\"cauchy:1.6,0.02\" roughness=\"0.2 0.6\"/>",
+    matt + "<specular reflectance=\"400:0.05 700:0.9\" roughness=\"0.5\"/>",
 };
 const std::vector<double> wavelengths{420, 550, 680};
 
@@ -46,8 +51,8 @@ std::string textOf(Vec3 v) {
 }
 
 /// The lobes as patches in the plane z = 0, seen from `view`, irradiance 1 square-on from `light`.
-constexpr double viewHeight = 16;
-constexpr int pixels = 160;
+constexpr double viewHeight = 20;
+constexpr int pixels = 200;
 Vec3 placeOf(size_t patch) {
     return {2.0 * static_cast<double>(patch % 4) - 3, 2.0 * static_cast<double>(patch / 4) - 3, 0};
 }
