@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The viewer in a real window under Xvfb: view_window.py SPECTRAD. The illuminant is changed by keyboard and by mouse, with events
-of the X server; what stands on the screen is compared with the same actions off screen. Then the window is closed, and the server
-taken away. Exit code 77 where Xvfb or xdotool is absent."""
+of the X server; what stands on the screen is compared with the same actions off screen. Then the window is closed; in another one
+the scene changes on disk, and the server is taken away. Exit code 77 where Xvfb or xdotool is absent."""
 
 import os
 import pathlib
@@ -156,8 +156,14 @@ def check(program, folder, display, server):
     if viewer.wait(60) != 0:
         sys.exit("closing ends with an error: " + viewer.stderr.read())
 
+    # The scene changes on disk; exposure is measured again on both sides.
     viewer = open_window()
-    time.sleep(1)
+    xdo("mousemove", 400, 590)
+    same("opened again", park)
+    (folder / "scene.xml").write_text(SCENE.replace('radius="1"', 'radius="0.7"'))
+    time.sleep(3)
+    xdo("key", "e")
+    same("changed on disk", park + "key e\n")
     server.send_signal(signal.SIGKILL)
     code, said = viewer.wait(60), viewer.stderr.read()
     lines = [line for line in said.splitlines() if "spectrad:" in line]

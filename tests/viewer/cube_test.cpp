@@ -178,3 +178,25 @@ TEST_CASE("a cube seen with two eyes: divider, difference, mixture") {
     REQUIRE(desk.session->difference);
     CHECK(desk.session->difference->max > 1);
 }
+
+TEST_CASE("a thousand actions on a cube: no error of OpenGL, and every picture comes back") {
+    if (!canView()) return;
+    const TemporaryFolder folder;
+    Desk desk(writeSample(folder, CubeKind::reflectance));
+    desk.viewer->showPanels(false);
+    const Picture8 first = desk.viewer->picture();
+    const std::string round =
+        "move 5 20\nkey l\nclick 10 32\nscroll 2\ndrag 10 30 14 34\nkey tab\nkey c\nkey h\nresize 120 "
+        "80\nmove 60 40\n"
+        "key p\nset light.times=0.7\nset mix=0.3\nset band=550\nset bands=600,500,450\nset picture=observer\n"
+        "key tab\nresize 0 0\nwait 1\nresize 23 70\nkey h\nkey x\nkey home\nset look=A\nkey e\n";
+    for (int i = 0; i < 40; ++i)  // 25 actions each
+        desk.play(round);
+    desk.session->pins.clear();
+    desk.play(
+        "set look=A\nset light.spectrum=illuminants/D65\nset light.times=1\nset mode=single\n"
+        "set white=100,100,100\nset white=\nset exposure=0\nkey escape");
+    desk.session->heldLuminance = 100;
+    const bool same = desk.viewer->picture().pixels == first.pixels;
+    CHECK(same);
+}
