@@ -60,7 +60,8 @@ std::vector<SweepVariant> variantsOf(const std::vector<SweepAxis>& axes) {
         for (const SweepVariant& before : variants)
             for (const std::string& value : axis.values) {
                 SweepVariant variant = before;
-                variant.name += (variant.name.empty() ? "" : "-") + fileName(value);
+                if (!variant.name.empty()) variant.name += '-';
+                variant.name += fileName(value);
                 for (const std::string& attribute : axis.attributes)
                     variant.set.push_back(attribute + "=" + value);
                 variant.where = axis.where;
