@@ -30,8 +30,8 @@ namespace {
 /// Seconds to compress and write a band value (PIZ, a core; half: two thirds of the bytes' time). Only the
 /// ratio to what rendering costs matters, and that is measured.
 constexpr double writeSeconds = 30e-9, writeHalf = 0.7;
-/// Of the bound: another white or another computer's rounding is not to break it.
-constexpr double margin = 0.97;
+/// Of the bound: another computer's rounding is not to break it.
+constexpr double margin = 0.99;
 
 Plan withSamples(Plan plan, int samples) {
     plan.samples = samples;
