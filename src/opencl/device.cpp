@@ -140,6 +140,8 @@ const DeviceInfo& Device::info() const {
 }
 
 void throwMachineError(const cl::Error& error, const std::string& doing, const Device::Body& device) {
+    // What was queued before still uses kernels and buffers that unwinding is about to give back.
+    if (device.queue()) clFinish(device.queue());
     throw MachineError(fmt::format("OpenCL: {} failed with {} in {} on {}", doing, clErrorName(error.err()),
                                    error.what(), device.info.name));
 }

@@ -26,6 +26,14 @@ struct Device::Body {
     cl::Context context;
     cl::CommandQueue queue;  ///< in order
 
+    Body() = default;
+    /// Waits: what is queued must not outlive the program that it is part of, whatever ended the work.
+    ~Body() {
+        if (queue()) clFinish(queue());
+    }
+    Body(const Body&) = delete;
+    Body& operator=(const Body&) = delete;
+
     /// Lanes of the kernels' vectors (-DVW): CPUs take 16 pixels or samples at once, GPUs one per work-item.
     [[nodiscard]] int vectorWidth() const { return info.type == "gpu" ? 1 : 16; }
 };

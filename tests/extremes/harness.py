@@ -98,7 +98,8 @@ class Bench:
         self.tried += 1
         outcome = self.start(*arguments, environment=environment, preexec=preexec).finish(timeout)
         if outcome.code < 0 or outcome.code in (126, 127) or 'internal error' in outcome.err:
-            raise Failed(f'{" ".join(arguments)}: {outcome}')
+            faults = {name: value for name, value in (environment or {}).items() if name.startswith('SPECTRAD_')}
+            raise Failed(f'{" ".join(arguments)}: {outcome} {faults or ""}')
         if 'AddressSanitizer' in outcome.err or 'runtime error:' in outcome.err:
             raise Failed(f'{" ".join(arguments)}: {outcome}')
         return outcome
