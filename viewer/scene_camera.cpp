@@ -139,6 +139,7 @@ void SceneSubject::follow() {
     Notes unsaid;
     PassTextures passes(moved, library_, device_, settings, unsaid);
     Plan made = makePlan(moved, settings, library_, passes, unsaid);
+    fetchTextures(made.world);
     live_ = std::make_unique<LiveImage>(device_, std::move(made));
     tables_.clear();
     live_->move(view_, scene_, flat_);

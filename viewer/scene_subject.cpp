@@ -1,5 +1,6 @@
 #include "viewer/scene_subject.h"
 
+#include "render/resident.h"
 #include "spectrum/projection.h"
 
 #include <algorithm>
@@ -45,6 +46,7 @@ SceneSubject::SceneSubject(const std::filesystem::path& file, const LoadOptions&
         return !node.shot.pass || node.shot.pass->as != PassKind::reflectance;
     });
     Plan made = makePlan(scene_, settings_, library_, passes, notes_);
+    fetchTextures(made.world);
     if (made.as != PassKind::radiance)
         throw InputError("pass '" + made.passName + "' is no radiance: view shows what an eye sees");
     if (made.faces > 1)
@@ -122,14 +124,24 @@ std::vector<LightGroup> SceneSubject::groupsOf(const Scene& changed) const {
         lights, false, settings_.lightsApart);
 }
 
+void SceneSubject::fetchTextures(World& world) {
+    for (const World::Resident& part : world.resident) {
+        world.textures[part.texture].first = world.texels.size();
+        const std::vector<float> texels = part.texels->read();
+        world.texels.insert(world.texels.end(), texels.begin(), texels.end());
+    }
+    world.resident.clear();
+}
+
 void SceneSubject::plan(Table& table, const Look& look, const Scene& changed) {
     RenderSettings settings = settings_;
-    settings.geometry = false;
-    settings.eye = look.eye.get();
-    Notes unsaid;  // what there is to say was said when the scene was opened
     settings.size = {view_.width, view_.height};
+    Notes unsaid;  // what there is to say was said when the scene was opened
     PassTextures passes(changed, library_, device_, settings, unsaid);
+    settings.geometry = false;  // of the picture alone: passes want theirs
+    settings.eye = look.eye.get();
     Plan made = makePlan(changed, settings, library_, passes, unsaid);
+    fetchTextures(made.world);
     ++timesPlanned_;
     table.recipes = made.terms.recipes;
     table.spectra = made.terms.spectra;
