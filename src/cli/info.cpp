@@ -19,6 +19,7 @@ namespace {
 
 struct InfoArguments {
     SceneArguments scene;
+    std::string reradiation, output;
     bool list = false, cost = false, json = false, quiet = false;
 };
 
@@ -57,6 +58,14 @@ ExitCode inform(const InfoArguments& arguments) {
     if (what.empty()) throw UsageError("info needs a SCENE, a CUBE or a SPECTRUM, or --list");
     if (arguments.cost && kindOf(what) != Kind::scene)
         throw UsageError("--cost is for scenes, and '" + what + "' is none");
+    if (!arguments.reradiation.empty() || !arguments.output.empty()) {
+        if (arguments.reradiation.empty() || arguments.output.empty())
+            throw UsageError("--reradiation MATERIAL and -o FILE belong together");
+        if (kindOf(what) != Kind::scene)
+            throw UsageError("--reradiation is for scenes, and '" + what + "' is none");
+        writeReradiation(arguments.scene, arguments.reradiation, arguments.output, arguments.json, console);
+        return ExitCode::ok;
+    }
     switch (kindOf(what)) {
         case Kind::scene:
             if (arguments.cost)
@@ -91,6 +100,14 @@ void addInfo(CLI::App& app, Action& action) {
     command->add_flag("--cost", arguments->cost,
                       "of a scene: render it without each of its features in turn, and print what each costs "
                       "in time and memory and changes in CIEDE2000");
+    command
+        ->add_option("--reradiation", arguments->reradiation,
+                     "of a scene: write this fluorescent material as a Donaldson matrix, which <fluorescence "
+                     "matrix=…> reads, on --wavelengths (default: 300:780:5)")
+        ->type_name("MATERIAL");
+    command
+        ->add_option("-o,--output", arguments->output, "that matrix's file: EXR (bispectral layout) or CSV")
+        ->type_name("OUT.exr|OUT.csv");
     command->add_flag("--json", arguments->json, "print one JSON value");
     command->add_flag("-q,--quiet", arguments->quiet, "no remarks on standard error");
     addSceneOptions(*command, arguments->scene);

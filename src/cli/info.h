@@ -14,6 +14,9 @@ class Library;
 void printSceneInfo(const SceneArguments& arguments, bool json, Console& console);
 /// What each feature of the scene costs and changes.
 void printSceneCost(const SceneArguments& arguments, bool json, Console& console);
+/// The fluorescent material's Donaldson matrix into an EXR or CSV file.
+void writeReradiation(const SceneArguments& arguments, const std::string& material, const std::string& target,
+                      bool json, Console& console);
 void printCubeInfo(const std::string& file, bool json, Console& console);
 void printSpectrumInfo(const std::string& text, const Library& library, bool json, Console& console);
 /// The library's entries whose names start with `prefix`.

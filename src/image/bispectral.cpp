@@ -5,6 +5,7 @@
 #include "image/exr_guard.h"
 #include "image/exr_headers.h"
 #include "image/exr_sink.h"
+#include "image/picture.h"
 #include "image/printable.h"
 
 #include <ImfChannelList.h>
@@ -12,6 +13,7 @@
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -110,6 +112,25 @@ std::vector<BispectralCell> readBispectral(const std::filesystem::path& path) {
                          "has no bispectral channels (T.<in>nm.<out>nm: radiance factor at <out> of light "
                          "at <in>)");
     });
+}
+
+void writeBispectral(const std::filesystem::path& target, const std::vector<BispectralCell>& cells,
+                     const std::map<std::string, std::string>& attributes) {
+    // The layout's decimal sign is a comma, since dots part the layers of a name.
+    const auto wave = [](double nm) {
+        std::string text = fmt::format("{:.6f}nm", nm);
+        std::replace(text.begin(), text.end(), '.', ',');
+        return text;
+    };
+    std::vector<std::string> names;
+    std::vector<std::vector<float>> planes;
+    for (const BispectralCell& cell : cells) {
+        names.push_back("T." + wave(cell.inNm) + (cell.inNm == cell.outNm ? "" : "." + wave(cell.outNm)));
+        planes.push_back({static_cast<float>(cell.value)});
+    }
+    std::map<std::string, std::string> all = attributes;
+    all["spectralLayoutVersion"] = "1.0";
+    writeChannelsExr(target, 1, 1, names, planes, all);
 }
 
 }  // namespace spectrad

@@ -5,6 +5,8 @@
 #include "base/error.h"
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace spectrad {
@@ -18,5 +20,10 @@ struct BispectralCell {
 /// All spectral T channels of an image, in no order. A measured patch of many pixels is its mean, which keeps
 /// signed noise from adding up. Throws InputError for a file without channels T.<in>nm.<out>nm.
 [[nodiscard]] std::vector<BispectralCell> readBispectral(const std::filesystem::path& path);
+
+/// Writes cells as an image of one pixel in that layout, whole or not at all. Throws InputError (two cells of
+/// the same wavelengths, values that are not finite), MachineError.
+void writeBispectral(const std::filesystem::path& target, const std::vector<BispectralCell>& cells,
+                     const std::map<std::string, std::string>& attributes);
 
 }  // namespace spectrad

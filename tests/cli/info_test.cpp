@@ -138,3 +138,72 @@ TEST_CASE("info --cost tells of each feature what it costs and what the picture 
     CHECK(of.at("point").at("deltae00").at("max") > 50);
     cli::requireError(cli::run(folder, {"info", "illuminants/D65", "--cost"}), 2, "--cost");
 }
+
+namespace {
+
+// A matrix whose diagonal is the reflectance; nothing comes out below the light that excites it.
+constexpr const char* donaldson =
+    "emission_nm,ex400,ex420,ex440,ex460,ex480\n"
+    "400,0.30,0,0,0,0\n420,0.10,0.40,0,0,0\n440,0.05,0.20,0.50,0,0\n"
+    "460,0.025,0.125,0.25,0.60,0\n480,0.0625,0.03125,0.10,0.15,0.70\n";
+
+std::string fluorescentScene(const std::string& fluorescence) {
+    return "<scene version=\"1\"><wavelengths>400 410 420 430 440 450 460 470 480</wavelengths>"
+           "<material name=\"ink\">" +
+           fluorescence +
+           "</material><node><plane size=\"4 4\" material=\"ink\"/></node>"
+           "<light name=\"lamp\" type=\"directional\" direction=\"0 0 -1\" spectrum=\"400:1 425:3 455:0.5 "
+           "480:2\" irradiance=\"10 W/m2\"/>"
+           "<camera type=\"orthographic\" height=\"2\" look-from=\"0 0 3\" look-at=\"0 0 0\" "
+           "size=\"4x4\"/></scene>";
+}
+
+json radianceOf(const Folder& folder, const std::string& scene) {
+    const Outcome rendered = run(folder, {"render", scene, "-q", "-o", "seen.exr"});
+    INFO(rendered.err);
+    REQUIRE(rendered.code == 0);
+    return run(folder, {"measure", "seen.exr", "-q", "--json", "--at", "1,1"}).json()[0].at("radiance");
+}
+
+}  // namespace
+
+TEST_CASE("A matrix written as EXR or CSV and read back is the same fluorescence") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    folder.write("donaldson.csv", donaldson);
+    folder.write("first.xml", fluorescentScene("<fluorescence matrix=\"donaldson.csv\"/>"));
+    const json right = radianceOf(folder, "first.xml");
+    for (const std::string file : {"again.exr", "again.csv"}) {
+        const Outcome written = run(folder, {"info", "first.xml", "-q", "--reradiation", "ink", "-o", file,
+                                             "--wavelengths", "400:480:20", "--json"});
+        INFO(written.err);
+        REQUIRE(written.code == 0);
+        CHECK(written.json().at("cells") == 15);
+        folder.write("second.xml", fluorescentScene("<fluorescence matrix=\"" + file + "\"/>"));
+        const json there = radianceOf(folder, "second.xml");
+        for (size_t band = 0; band < right.size(); ++band)
+            CHECK(there[band].get<double>() == Approx(right[band].get<double>()).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("A dye in curves, written as a fine matrix, glows as before") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    folder.write(
+        "first.xml",
+        fluorescentScene("<diffuse reflectance=\"constant:0.4\"/><fluorescence "
+                         "excitation=\"gaussian:415,15\" emission=\"gaussian:460,20\" yield=\"0.9\"/>"));
+    const json right = radianceOf(folder, "first.xml");
+    REQUIRE(run(folder, {"info", "first.xml", "-q", "--reradiation", "ink", "-o", "m.exr", "--wavelengths",
+                         "380:500:1"})
+                .code == 0);
+    folder.write("second.xml", fluorescentScene("<fluorescence matrix=\"m.exr\"/>"));
+    const json there = radianceOf(folder, "second.xml");
+    for (size_t band = 0; band < right.size(); ++band)
+        CHECK(there[band].get<double>() == Approx(right[band].get<double>()).epsilon(2e-3));
+    requireError(run(folder, {"info", "first.xml", "-q", "--reradiation", "paint", "-o", "m.exr"}), 2,
+                 "fluorescent are: ink");
+    requireError(run(folder, {"info", "first.xml", "-q", "--reradiation", "ink"}), 2, "belong together");
+    requireError(run(folder, {"info", "first.xml", "-q", "--reradiation", "ink", "-o", "m.png"}), 2,
+                 ".exr or .csv");
+}
