@@ -1,4 +1,5 @@
 // The camera of a scene that is looked at: where it stands, what it hits, and what is made anew for it.
+#include "render/texels.h"
 #include "viewer/scene_subject.h"
 
 #include <algorithm>
@@ -139,7 +140,7 @@ void SceneSubject::follow() {
     Notes unsaid;
     PassTextures passes(moved, library_, device_, settings, unsaid);
     Plan made = makePlan(moved, settings, library_, passes, unsaid);
-    fetchTextures(made.world);
+    fetchTexels(made.world);
     live_ = std::make_unique<LiveImage>(device_, std::move(made));
     tables_.clear();
     live_->move(view_, scene_, flat_);

@@ -1,6 +1,6 @@
 #include "viewer/scene_subject.h"
 
-#include "render/resident.h"
+#include "render/texels.h"
 #include "spectrum/projection.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ SceneSubject::SceneSubject(const std::filesystem::path& file, const LoadOptions&
         return !node.shot.pass || node.shot.pass->as != PassKind::reflectance;
     });
     Plan made = makePlan(scene_, settings_, library_, passes, notes_);
-    fetchTextures(made.world);
+    fetchTexels(made.world);
     if (made.as != PassKind::radiance)
         throw InputError("pass '" + made.passName + "' is no radiance: view shows what an eye sees");
     if (made.faces > 1)
@@ -124,15 +124,6 @@ std::vector<LightGroup> SceneSubject::groupsOf(const Scene& changed) const {
         lights, false, settings_.lightsApart);
 }
 
-void SceneSubject::fetchTextures(World& world) {
-    for (const World::Resident& part : world.resident) {
-        world.textures[part.texture].first = world.texels.size();
-        const std::vector<float> texels = part.texels->read();
-        world.texels.insert(world.texels.end(), texels.begin(), texels.end());
-    }
-    world.resident.clear();
-}
-
 void SceneSubject::plan(Table& table, const Look& look, const Scene& changed) {
     RenderSettings settings = settings_;
     settings.size = {view_.width, view_.height};
@@ -141,7 +132,7 @@ void SceneSubject::plan(Table& table, const Look& look, const Scene& changed) {
     settings.geometry = false;  // of the picture alone: passes want theirs
     settings.eye = look.eye.get();
     Plan made = makePlan(changed, settings, library_, passes, unsaid);
-    fetchTextures(made.world);
+    fetchTexels(made.world);
     ++timesPlanned_;
     table.recipes = made.terms.recipes;
     table.spectra = made.terms.spectra;

@@ -106,8 +106,6 @@ class SceneSubject : public Subject {
     [[nodiscard]] Scene grouped(const Look& look);
     [[nodiscard]] bool apart() const;
     [[nodiscard]] std::vector<LightGroup> groupsOf(const Scene& scene) const;
-    /// What passes left on the device, on the host: plans are compared with each other.
-    static void fetchTextures(World& world);
     /// All terms anew, materials included.
     void plan(Table& table, const Look& look, const Scene& changed);
     void resolve();

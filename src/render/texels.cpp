@@ -118,6 +118,15 @@ std::uint32_t addResident(World& world, std::shared_ptr<const ResidentTexels> im
     return static_cast<std::uint32_t>(world.textures.size());
 }
 
+void fetchTexels(World& world) {
+    for (const World::Resident& part : world.resident) {
+        world.textures[part.texture].first = world.texels.size();
+        const std::vector<float> texels = part.texels->read();
+        world.texels.insert(world.texels.end(), texels.begin(), texels.end());
+    }
+    world.resident.clear();
+}
+
 std::vector<std::string> textureDefines(const World& world) {
     std::vector<std::string> defines;
     if (world.textures.empty()) return defines;

@@ -18,6 +18,10 @@ namespace spectrad {
 [[nodiscard]] std::uint32_t addResident(World& world, std::shared_ptr<const ResidentTexels> image,
                                         const TextureUse& use);
 
+/// Brings the texels of passes that stayed on the device to the host, for who reads a world there. Throws
+/// MachineError.
+void fetchTexels(World& world);
+
 /// Kernel switches that the world's textures need.
 [[nodiscard]] std::vector<std::string> textureDefines(const World& world);
 

@@ -27,7 +27,8 @@ Spectrum plain(Curve curve, const std::string& text) {
 
 /// The mean of all texels.
 Spectrum meanOf(const TextureUse& use, TextureLoader& textures) {
-    const SpectralTexture texture = textures.load(use);
+    SpectralTexture texture = textures.load(use);
+    texture.fetch();
     const size_t bands = texture.nm.size();
     std::vector<double> mean(bands, 0.0);
     for (size_t i = 0; i < texture.texels.size(); ++i)

@@ -2,6 +2,7 @@
 
 #include "colour/observe.h"
 #include "render/passes.h"
+#include "render/texels.h"
 #include "spectrum/library.h"
 #include "verify/scalar_shade.h"
 
@@ -67,6 +68,7 @@ Reference::Reference(const Scene& scene, const RenderSettings& settings, const W
                                  "' as the renderer makes it");
         Plan plan = makePlan(scene, wanted, library, passes, unheard);
         requireJudgeable(scene, plan, target);
+        fetchTexels(plan.world);  // shaded here, not on the device
         plan.samples = referenceSamples;
         return plan;
     };

@@ -140,3 +140,25 @@ TEST_CASE("--tolerance chooses settings, says why, and certifies them; what noth
     CHECK(never.err.find("no settings keep") != std::string::npos);
     requireError(run(folder, {"render", "ball.xml", "--tolerance", "low"}), 2, "--tolerance");
 }
+
+TEST_CASE(
+    "A picture of a pass that glows is certified too: the pass stays on the device, the reference does not") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    folder.write("s.xml", R"(<scene version="1"><wavelengths from="400" to="700" step="20"/>
+<material name="ink"><diffuse reflectance="400:0.2 700:0.7"/></material>
+<material name="picture"><emission texture="pass:inner"/></material>
+<node name="ball"><sphere radius="0.9" material="ink"/></node>
+<node name="wall" translate="0 0 -1"><plane size="3 3" material="picture"/></node>
+<light name="lamp" type="directional" direction="0 -1 -1" spectrum="400:1 700:2" irradiance="5 W/m2"/>
+<camera look-from="0 0 6" look-at="0 0 0" fov="38" size="48x40"/>
+<pass name="inner" of="ball" lights="lamp"/><pass name="main" of="wall"/></scene>)");
+    const cli::Outcome outcome =
+        run(folder, {"render", "s.xml", "-o", "s.exr", "--samples", "64", "--verify", "--json", "-q"});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    // The same samples. The curves bend at 400 and 700 nm, where they end: a pass of 20 nm bands rounds the
+    // bend, and its own picture rounds it again; the reference's pass has bands of a nanometre.
+    CHECK(outcome.json().at("certificate").at("band_relative").at("p99").at("value").get<double>() < 2e-2);
+    CHECK(run(folder, {"certify", "s.exr", "s.xml", "-q"}).code == 0);
+}
