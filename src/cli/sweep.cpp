@@ -2,6 +2,7 @@
 #include "render/sweep.h"
 
 #include "base/files.h"
+#include "base/machine.h"
 #include "base/text.h"
 #include "cli/camera_commands.h"
 #include "cli/console.h"
@@ -11,6 +12,7 @@
 #include "cli/sweep_variants.h"
 #include "colour/develop.h"
 #include "image/picture.h"
+#include "render/columns.h"
 #include "render/node_cover.h"
 #include "render/renderer.h"
 #include "spectrum/library.h"
@@ -22,7 +24,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <unistd.h>
 
 namespace spectrad {
 
@@ -40,12 +41,6 @@ struct Looker {
     std::unique_ptr<Observation> eye;
     std::string name, file;
 };
-
-std::uint64_t memoryOfMachine() {
-    const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
-    return pages > 0 && bytes > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(bytes)
-                                  : ~std::uint64_t{0};
-}
 
 /// The pictures' channels wait in memory, as floats, until the last row is there: exposure needs all of them.
 void requireMemory(const Plan& plan, size_t columns) {
@@ -101,24 +96,10 @@ class Sweeping {
     /// Renders once; returns the table.
     Json run(const Device& device) {
         coverRegions(device);
-        const Plan& plan = sweep_.plan;
-        const size_t columns = plan.terms.bands, width = static_cast<size_t>(plan.view.width);
-        columns_.assign(columns, std::vector<float>(width * static_cast<size_t>(plan.view.height)));
-        Renderer renderer(device, plan);
+        Renderer renderer(device, sweep_.plan);
         {
             ProgressBar bar("rendering", arguments_.quiet);
-            renderer.render(
-                [&](int firstRow, int rows, const float* values, const float*) {
-                    for (size_t row = 0; row < static_cast<size_t>(rows); ++row)
-                        for (size_t c = 0; c < columns; ++c) {
-                            const float* from = values + (row * columns + c) * width;
-                            std::copy(
-                                from, from + width,
-                                columns_[c].begin() + static_cast<std::ptrdiff_t>(
-                                                          (static_cast<size_t>(firstRow) + row) * width));
-                        }
-                },
-                [&](double share) { bar.show(share); });
+            columns_ = renderColumns(renderer, sweep_.plan, [&](double share) { bar.show(share); });
         }
         build = renderer.times().build;
         rendering = renderer.times().render;

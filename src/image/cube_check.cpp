@@ -1,5 +1,6 @@
 #include "image/cube_check.h"
 
+#include "base/machine.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -8,8 +9,6 @@
 #include <bit>
 #include <cmath>
 #include <fstream>
-#include <limits>
-#include <unistd.h>
 
 namespace spectrad {
 
@@ -72,10 +71,7 @@ std::uint64_t availableMemory() {
         if (const auto kilobytes = parts.size() > 1 ? parseInteger(parts[1]) : std::nullopt)
             return static_cast<std::uint64_t>(*kilobytes) * 1024;
     }
-    const long pages = ::sysconf(_SC_PHYS_PAGES), pageSize = ::sysconf(_SC_PAGESIZE);
-    if (pages > 0 && pageSize > 0)
-        return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(pageSize);
-    return std::numeric_limits<std::uint64_t>::max();
+    return memoryOfMachine();
 }
 
 size_t checkedValueCount(const CubeInfo& info, const std::filesystem::path& file) {

@@ -40,12 +40,8 @@ LiveImage::Pipeline& LiveImage::pipeline(int samples) {
     Pipeline& made = found->second;
     if (!fresh) return made;
     try {
-        made.plan = plan_;
-        made.plan.samples = samples;
+        made.plan = withSamples(plan_, samples);
         made.lanes = lanePattern(samples, device_.body().vectorWidth());
-        for (std::string& define : made.plan.defines)
-            if (define.starts_with("SLOTS="))
-                define = "SLOTS=" + std::to_string(lanePattern(samples, 1).slots);
         made.stages = std::make_unique<Stages>(device_, made.plan, made.lanes);
     } catch (...) {
         pipelines_.erase(found);

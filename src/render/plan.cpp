@@ -134,9 +134,13 @@ std::vector<std::string> featuresOf(const std::vector<const Material*>& material
     return {features.begin(), features.end()};
 }
 
+std::string slotsDefine(int samples) {
+    return fmt::format("SLOTS={}", lanePattern(samples, 1).slots);
+}
+
 /// Kernel switches, from what the world really holds: a feature that it lacks costs no instruction.
 std::vector<std::string> definesOf(const World& world, int samples, bool baked) {
-    std::set<std::string> defines{fmt::format("SLOTS={}", lanePattern(samples, 1).slots)};
+    std::set<std::string> defines{slotsDefine(samples)};
     for (const sd_light& light : world.lights) {
         static constexpr std::array<const char*, 6> switches{
             "", "HAS_POINT", "HAS_SPOT", "HAS_DIRECTIONAL", "HAS_UNIFORM", "HAS_UNIFORM"};
@@ -158,6 +162,13 @@ std::vector<std::string> definesOf(const World& world, int samples, bool baked) 
 }
 
 }  // namespace
+
+Plan withSamples(Plan plan, int samples) {
+    plan.samples = samples;
+    for (std::string& define : plan.defines)
+        if (define.starts_with("SLOTS=")) define = slotsDefine(samples);
+    return plan;
+}
 
 Shot shotOf(const Scene& scene, const Pass& pass) {
     Shot shot;
@@ -246,13 +257,9 @@ View viewOf(const Shot& shot, const RenderSettings& settings, const FlatScene& f
 Emitter withMeanOf(const Emitter& emitter, TextureLoader& textures) {
     SpectralTexture texture = textures.load(*emitter.texture);
     texture.fetch();
-    const size_t bands = texture.nm.size();
-    std::vector<double> mean(bands, 0.0);
-    for (size_t i = 0; i < texture.texels.size(); ++i)
-        mean[i % bands] += texture.texels[i];
+    std::vector<double> mean = meanOfTexels(texture.texels, texture.nm.size());
     for (double& value : mean)
-        value =
-            std::max(0.0, value * static_cast<double>(bands) / static_cast<double>(texture.texels.size()));
+        value = std::max(0.0, value);
     Emitter light = emitter;
     light.spectrum.curves = {Curve::table(texture.nm, mean)};
     return light;

@@ -34,6 +34,9 @@ struct Plan {
     [[nodiscard]] size_t lights() const { return world.lights.size(); }
 };
 
+/// The same plan for another number of samples.
+[[nodiscard]] Plan withSamples(Plan plan, int samples);
+
 /// What is rendered: a pass, or a whole scene through a camera.
 struct Shot {
     const Scene* scene = nullptr;  ///< that is shown: another file's where the pass says so

@@ -1,5 +1,7 @@
 #include "render/sweep.h"
 
+#include "render/columns.h"
+
 #include <fmt/format.h>
 
 #include <cstring>
@@ -70,12 +72,7 @@ SweepPlan sweepPlan(std::vector<Plan> variants, const std::vector<std::string>& 
                 ++column;
             }
     }
-    sweep.plan = std::move(variants.front());
-    sweep.plan.terms.bands = columns;
-    sweep.plan.terms.spectra = std::move(spectra);
-    sweep.plan.wavelengths.nm.resize(columns);
-    for (size_t i = 0; i < columns; ++i)
-        sweep.plan.wavelengths.nm[i] = static_cast<double>(i + 1);  // column numbers
+    sweep.plan = withColumns(std::move(variants.front()), std::move(spectra), columns);
     return sweep;
 }
 

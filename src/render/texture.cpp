@@ -22,6 +22,15 @@ void SpectralTexture::fetch() {
     resident.reset();
 }
 
+std::vector<double> meanOfTexels(const std::vector<float>& texels, size_t bands) {
+    std::vector<double> mean(bands, 0.0);
+    for (size_t i = 0; i < texels.size(); ++i)
+        mean[i % bands] += texels[i];
+    for (double& value : mean)
+        value = value * static_cast<double>(bands) / static_cast<double>(texels.size());
+    return mean;
+}
+
 SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& notes) {
     const CubeInfo& info = cube.info;
     const bool reflectance = use.role == TextureRole::reflectance,

@@ -32,6 +32,9 @@ struct SpectralTexture {
     void fetch();
 };
 
+/// Of each band the mean over all pixels.
+[[nodiscard]] std::vector<double> meanOfTexels(const std::vector<float>& texels, size_t bands);
+
 /// A cube as a texture: slit averages become the nodal values of the curve that has them; reflectances are
 /// held at or above zero, radiances keep their sign so that the same bands come back. Throws InputError for a
 /// cube of another kind than the use asks for (only radiance carries fluorescence; only a reflectance takes a

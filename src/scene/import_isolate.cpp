@@ -1,6 +1,7 @@
 #include "scene/import_isolate.h"
 
 #include "base/error.h"
+#include "base/machine.h"
 #include "base/text.h"
 
 #include <climits>
@@ -171,9 +172,7 @@ ChildOutcome runInChild(const std::function<void(const ByteSink&)>& work, const 
     const auto deadline =
         std::chrono::steady_clock::now() +
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(limits.seconds));
-    const auto machine = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-                         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-    const std::uint64_t most = machine / 4 * 3;
+    const std::uint64_t most = memoryOfMachine() / 4 * 3;
     const std::uint64_t addressSpace =
         addressSpaceUsed() + (limits.memoryBytes > 0 ? std::min(limits.memoryBytes, most) : most);
 

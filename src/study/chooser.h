@@ -35,7 +35,4 @@ struct Chosen {
                             const Library& library, const Device& device, const Planner& planner,
                             const Progress& progress);
 
-/// The scene with metals by Schlick's formula.
-[[nodiscard]] Scene withSchlick(const Scene& scene);
-
 }  // namespace spectrad

@@ -132,6 +132,13 @@ std::vector<Contestant> contestants(const Scene& scene, const Wavelengths& grid,
     return out;
 }
 
+Scene withSchlick(const Scene& scene) {
+    Scene changed = scene;
+    for (Material& material : changed.materials)
+        if (material.conductor) material.conductor->schlick = true;
+    return changed;
+}
+
 std::optional<Entry> prepare(const Contestant& contestant, const Scene& scene, const RenderSettings& settings,
                              const Detector& observer, const Library& library, const Planner& planner) {
     RenderSettings asked = settings;
@@ -174,14 +181,7 @@ std::optional<Entry> prepare(const Contestant& contestant, const Scene& scene, c
         case Method::spectral:
             break;
     }
-    if (contestant.schlick) {
-        Scene changed = scene;
-        for (Material& material : changed.materials)
-            if (material.conductor) material.conductor->schlick = true;
-        entry.plan = planner(changed, asked);
-    } else {
-        entry.plan = planner(scene, asked);
-    }
+    entry.plan = planner(contestant.schlick ? withSchlick(scene) : scene, asked);
     entry.weights = weightsOn(entry.plan.wavelengths, observer);
     return entry;
 }

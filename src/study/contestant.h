@@ -46,6 +46,9 @@ struct Contestant {
 /// `grid`: the scene's own range is kept.
 [[nodiscard]] std::vector<Contestant> contestants(const Scene& scene, const Wavelengths& grid, int samples);
 
+/// The scene with metals by Schlick's formula.
+[[nodiscard]] Scene withSchlick(const Scene& scene);
+
 /// A contestant made ready: a plan, and what takes its bands (or channels, or coefficients) to X Y Z.
 struct Entry {
     Plan plan;

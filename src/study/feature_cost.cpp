@@ -29,25 +29,16 @@ Spectrum plain(Curve curve, const std::string& text) {
 Spectrum meanOf(const TextureUse& use, TextureLoader& textures) {
     SpectralTexture texture = textures.load(use);
     texture.fetch();
-    const size_t bands = texture.nm.size();
-    std::vector<double> mean(bands, 0.0);
-    for (size_t i = 0; i < texture.texels.size(); ++i)
-        mean[i % bands] += texture.texels[i];
+    std::vector<double> mean = meanOfTexels(texture.texels, texture.nm.size());
     for (double& value : mean)
-        value = std::clamp(value * static_cast<double>(bands) / static_cast<double>(texture.texels.size()),
-                           0.0, 1.0);
+        value = std::clamp(value, 0.0, 1.0);
     return plain(Curve::table(texture.nm, mean, Outside::hold), "mean of " + use.source);
 }
 
 /// All choices by their share of the map.
 Spectrum meanOf(const Select& select) {
     const Texels shares = shareMap(select);
-    const auto choices = static_cast<size_t>(shares.bands);
-    std::vector<double> share(choices, 0.0);
-    for (size_t i = 0; i < shares.texels.size(); ++i)
-        share[i % choices] += shares.texels[i];
-    for (double& value : share)
-        value *= static_cast<double>(choices) / static_cast<double>(shares.texels.size());
+    const std::vector<double> share = meanOfTexels(shares.texels, static_cast<size_t>(shares.bands));
     std::vector<Curve> curves;
     for (const Select::Choice& choice : select.choices)
         curves.push_back(choice.reflectance.curve());

@@ -1,5 +1,6 @@
 #include "study/linear_model.h"
 
+#include "render/columns.h"
 #include "study/eigen.h"
 
 #include <algorithm>
@@ -55,12 +56,7 @@ LinearModel inPrincipalComponents(Plan plan, const DetectorWeights& weights, int
         }
         model.weights.weights.push_back(std::move(onBasis));
     }
-    plan.terms.bands = basis.size();
-    plan.terms.spectra = std::move(coefficients);
-    plan.wavelengths.nm.clear();
-    for (size_t k = 1; k <= basis.size(); ++k)
-        plan.wavelengths.nm.push_back(static_cast<double>(k));  // numbers of components, no wavelengths
-    model.plan = std::move(plan);
+    model.plan = withColumns(std::move(plan), std::move(coefficients), basis.size());
     return model;
 }
 
