@@ -50,9 +50,7 @@ struct Case {
     }
     /// ΔE00 that 99 % of the pixels are within.
     [[nodiscard]] double error(const ChannelImage& image) const {
-        const ColourDifference d = colourDifference(right, image, white);
-        std::vector<double> map(d.map.begin(), d.map.end());
-        return quantile(map, 0.99);
+        return colourDifference(right, image, white).p99;
     }
     /// Processor time of rendering once and writing, s; the best of three. (Not the clock's: other programs
     /// may run.)

@@ -24,24 +24,29 @@ struct CompareArguments {
     std::string a, b, maxDeltaE, map, adapt = "cat16";
     ObserverArguments observer;
     std::vector<std::string> observers;  ///< of A and of B, each adapted to its own white
+    bool colours = false;                ///< not the bands: they may be others
     bool json = false, quiet = false;
 };
 
 struct Result {
-    BandDifference bands;
+    std::optional<BandDifference> bands;     ///< nothing with --colours
     std::optional<ColourDifference> colour;  ///< nothing where A is black and --white has no luminance
     White white;
 };
 
-void requireComparable(const CubeInfo& a, const CubeInfo& b, Notes& notes) {
+void requireComparable(const CubeInfo& a, const CubeInfo& b, bool bands, Notes& notes) {
     if (a.width != b.width || a.height != b.height)
         throw InputError(fmt::format("the sizes differ: A has {} x {} pixels, B {} x {}", a.width, a.height,
                                      b.width, b.height));
     if (a.kind != b.kind)
         throw InputError(fmt::format("the quantities differ: A holds {}, B {}", name(a.kind), name(b.kind)));
+    if (!bands) return;
     const std::vector<double>&nmA = a.wavelengths.nm, &nmB = b.wavelengths.nm;
     if (nmA.size() != nmB.size())
-        throw InputError(fmt::format("the wavelengths differ: A has {} bands, B {}", nmA.size(), nmB.size()));
+        throw InputError(
+            fmt::format("the wavelengths differ: A has {} bands, B {} (--colours compares only "
+                        "what an observer sees of them)",
+                        nmA.size(), nmB.size()));
     constexpr double tolerance = 1e-4;  // nm: other programs write three to six decimals
     for (size_t band = 0; band < nmA.size(); ++band)
         if (std::abs(nmA[band] - nmB[band]) > tolerance)
@@ -81,7 +86,7 @@ ChannelImage adapted(const ObserverArguments& observer, Adaptation method, const
 /// What two observers make of two cubes (or of one), or one observer of two lights, each adapted.
 Result compareObservers(const CompareArguments& arguments, const Cube& a, const Cube& b, Notes& notes) {
     Result result;
-    result.bands = bandDifference(a, b);
+    if (!arguments.colours) result.bands = bandDifference(a, b);
     const Adaptation method = asUsage("--adapt", [&] { return parseAdaptation(arguments.adapt); });
     ObserverArguments first = arguments.observer, second = arguments.observer;
     first.observer = arguments.observers[0];
@@ -98,7 +103,7 @@ Result compareObservers(const CompareArguments& arguments, const Cube& a, const 
 
 Result compareCubes(const CompareArguments& arguments, const Cube& a, const Cube& b, Notes& notes) {
     Result result;
-    result.bands = bandDifference(a, b);
+    if (!arguments.colours) result.bands = bandDifference(a, b);
     const Observation seesA(arguments.observer, a.info, notes), seesB(arguments.observer, b.info, notes);
     const ChannelImage xyzA = seesA.xyz(seesA.channels(a)), xyzB = seesB.xyz(seesB.channels(b));
     result.white = seesA.white(xyzA);
@@ -117,24 +122,26 @@ void writeMap(const std::string& file, const CubeInfo& info, const ColourDiffere
              {{"Description", "CIEDE2000 from 0 (dark blue) to " + rounded(colour.max, 6) + " (yellow)"}});
 }
 
-/// The last two are undefined where no pixel has a shape in both.
+/// Bands' figures are undefined with --colours, and the shapes' where no pixel has a shape in both.
 Json described(const Result& result, const CompareArguments& arguments) {
-    const BandDifference& bands = result.bands;
-    const bool shapes = bands.compared > 0;
-    Json out{{"band_rmse", bands.rmse},
-             {"band_relative_max", bands.relativeMax},
-             {"gfc_min", shapes ? Json(bands.gfcMin) : Json()},
-             {"spectral_angle_max_rad", shapes ? Json(bands.spectralAngleMax) : Json()},
-             {"black_in_one", bands.blackInOne}};
+    const BandDifference* bands = result.bands ? &*result.bands : nullptr;
+    const bool shapes = bands && bands->compared > 0;
+    Json out{{"band_rmse", bands ? Json(bands->rmse) : Json()},
+             {"band_relative_max", bands ? Json(bands->relativeMax) : Json()},
+             {"gfc_min", shapes ? Json(bands->gfcMin) : Json()},
+             {"spectral_angle_max_rad", shapes ? Json(bands->spectralAngleMax) : Json()},
+             {"black_in_one", bands ? Json(bands->blackInOne) : Json()}};
     if (result.colour) {
         const ColourDifference& colour = *result.colour;
         out["deltae00"] = {{"mean", colour.mean},
                            {"p95", colour.p95},
+                           {"p99", colour.p99},
                            {"max", colour.max},
                            {"max_at", {colour.maxX, colour.maxY}}};
         out["deltae76"] = {{"mean", colour.mean76}, {"max", colour.max76}};
     } else {
-        out["deltae00"] = {{"mean", nullptr}, {"p95", nullptr}, {"max", nullptr}, {"max_at", nullptr}};
+        out["deltae00"] = {
+            {"mean", nullptr}, {"p95", nullptr}, {"p99", nullptr}, {"max", nullptr}, {"max_at", nullptr}};
         out["deltae76"] = {{"mean", nullptr}, {"max", nullptr}};
     }
     out["observer"] = arguments.observer.observer;
@@ -145,8 +152,7 @@ Json described(const Result& result, const CompareArguments& arguments) {
     return out;
 }
 
-void printTable(const Result& result, const CompareArguments& arguments, const CubeInfo& info) {
-    const BandDifference& bands = result.bands;
+void printBands(const BandDifference& bands, const CubeInfo& info) {
     printText(fmt::format("band rmse            {} {}\n", rounded(bands.rmse, 6), unit(info.kind)));
     if (std::isfinite(bands.relativeMax))
         printText(fmt::format("band relative max    {} (at {} nm)\n", rounded(bands.relativeMax, 6),
@@ -158,14 +164,18 @@ void printTable(const Result& result, const CompareArguments& arguments, const C
         printText(fmt::format("gfc min              {}\nspectral angle max   {} rad\n",
                               rounded(bands.gfcMin, 9), rounded(bands.spectralAngleMax, 6)));
     if (bands.blackInOne > 0) printText(fmt::format("black in one only    {} pixels\n", bands.blackInOne));
+}
+
+void printTable(const Result& result, const CompareArguments& arguments, const CubeInfo& info) {
+    if (result.bands) printBands(*result.bands, info);
     if (!result.colour) return;
     const ColourDifference& colour = *result.colour;
-    printText(fmt::format("CIEDE2000            mean {}, 95 % {}, max {} at {},{} (white {} at Y = {}, {})\n",
-                          rounded(colour.mean, 4), rounded(colour.p95, 4), rounded(colour.max, 4),
-                          colour.maxX, colour.maxY, result.white.name, rounded(result.white.xyz[1], 5),
-                          arguments.observers.empty()
-                              ? arguments.observer.observer
-                              : arguments.observers[0] + " and " + arguments.observers[1]));
+    printText(fmt::format(
+        "CIEDE2000            mean {}, 95 % {}, 99 % {}, max {} at {},{} (white {} at Y = {}, {})\n",
+        rounded(colour.mean, 4), rounded(colour.p95, 4), rounded(colour.p99, 4), rounded(colour.max, 4),
+        colour.maxX, colour.maxY, result.white.name, rounded(result.white.xyz[1], 5),
+        arguments.observers.empty() ? arguments.observer.observer
+                                    : arguments.observers[0] + " and " + arguments.observers[1]));
     if (!arguments.map.empty())
         printText(fmt::format("map                  {}: CIEDE2000 from 0 (dark blue) to {} (yellow)\n",
                               arguments.map, rounded(colour.max, 4)));
@@ -174,7 +184,7 @@ void printTable(const Result& result, const CompareArguments& arguments, const C
 /// Beyond the bound, or without a difference to hold against it although the cubes are not the same.
 ExitCode judged(const Result& result, double bound) {
     if (!result.colour) {
-        if (result.bands.rmse == 0) return ExitCode::ok;
+        if (result.bands && result.bands->rmse == 0) return ExitCode::ok;
         printError("the colour difference is undefined, so it is not within the bound");
         return ExitCode::input;
     }
@@ -200,7 +210,7 @@ ExitCode compare(const CompareArguments& arguments) {
         throw UsageError("compare needs two cubes, or one and --observers; see 'spectrad compare --help'");
     const Cube a = readCube(arguments.a, console.notes()),
                b = readCube(arguments.b.empty() ? arguments.a : arguments.b, console.notes());
-    requireComparable(a.info, b.info, console.notes());
+    requireComparable(a.info, b.info, !arguments.colours, console.notes());
     const Result result = two ? compareObservers(arguments, a, b, console.notes())
                               : compareCubes(arguments, a, b, console.notes());
     console.printNotes();
@@ -218,7 +228,9 @@ void addCompare(CLI::App& app, Action& action) {
     CLI::App* command = app.add_subcommand("compare", "Compare two cubes: bands, spectral shapes, CIEDE2000");
     auto arguments = std::make_shared<CompareArguments>();
     command->add_option("A", arguments->a, "spectral image, EXR or ENVI")->type_name("A.exr")->required();
-    command->add_option("B", arguments->b, "another of the same size and wavelengths")->type_name("B.exr");
+    command
+        ->add_option("B", arguments->b, "another of the same size and wavelengths (with --colours, of any)")
+        ->type_name("B.exr");
     addObserverOptions(*command, arguments->observer);
     command
         ->add_option("--observers", arguments->observers,
@@ -237,6 +249,8 @@ void addCompare(CLI::App& app, Action& action) {
         ->add_option("--map", arguments->map,
                      "write CIEDE2000 of each pixel in false colours; the range is printed")
         ->type_name("OUT.png");
+    command->add_flag("--colours", arguments->colours,
+                      "compare what the observer sees, not the bands: A and B may have other wavelengths");
     command->add_flag("--json", arguments->json, "print a JSON object");
     command->add_flag("-q,--quiet", arguments->quiet, "no remarks on standard error");
     command->footer(
@@ -246,6 +260,7 @@ void addCompare(CLI::App& app, Action& action) {
         "without luminance counts at A's brightest Y.\n\n"
         "Examples:\n"
         "  spectrad compare reference.exr new.exr --max-deltae 0.5\n"
+        "  spectrad compare every-nm.exr ten-bands.exr --colours --json\n"
         "  spectrad compare a.exr --observers cie1931-2 nikon-5100 --map camera.png\n"
         "  spectrad compare daylight.exr tungsten.exr --observers cie1931-2 cie1931-2\n"
         "  spectrad compare a.exr b.exr --observer cie1964-10 --map difference.png --json");

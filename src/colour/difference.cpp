@@ -136,6 +136,7 @@ ColourDifference colourDifference(const ChannelImage& a, const ChannelImage& b, 
     result.mean76 /= static_cast<double>(values.size());
     result.map.assign(values.begin(), values.end());
     result.p95 = quantile(values, 0.95);
+    result.p99 = quantile(values, 0.99);
     return result;
 }
 

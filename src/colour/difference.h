@@ -42,10 +42,10 @@ class BandDifferenceMeter {
 };
 
 struct ColourDifference {
-    double mean = 0, p95 = 0, max = 0;  ///< ΔE00 over all pixels; p95 as quantile()
-    int maxX = 0, maxY = 0;             ///< the first pixel of the largest
-    double mean76 = 0, max76 = 0;       ///< the same by the CIE 1976 formula, for older tolerances
-    std::vector<float> map;             ///< ΔE00 of each pixel, row by row
+    double mean = 0, p95 = 0, p99 = 0, max = 0;  ///< ΔE00 over all pixels; p95, p99 as quantile()
+    int maxX = 0, maxY = 0;                      ///< the first pixel of the largest
+    double mean76 = 0, max76 = 0;                ///< the same by the CIE 1976 formula, for older tolerances
+    std::vector<float> map;                      ///< ΔE00 of each pixel, row by row
 };
 
 /// ΔE00 pixel by pixel of two XYZ images of the same size, both seen against `white` (XYZ with its luminance,

@@ -82,8 +82,7 @@ class Study {
         const ColourDifference colour = colourDifference(reference, trial.xyz, condition.white.xyz);
         row.deltaMean = colour.mean;
         row.deltaP95 = colour.p95;
-        std::vector<double> differences(colour.map.begin(), colour.map.end());
-        row.deltaP99 = quantile(differences, 0.99);
+        row.deltaP99 = colour.p99;
         row.deltaMax = colour.max;
         row.worstX = colour.maxX;
         row.worstY = colour.maxY;

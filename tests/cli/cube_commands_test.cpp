@@ -309,6 +309,27 @@ TEST_CASE("compare says which of size, wavelengths and quantity differ") {
     requireError(run(folder, {"compare", "a.exr", "a.exr", "--max-deltae", "-1"}), 2, "--max-deltae");
 }
 
+TEST_CASE("compare --colours holds cubes of other wavelengths against each other by what is seen of them") {
+    const Folder folder;
+    cli::writeCube(folder / "fine.exr", 2, 2, "360:830:1", [](int, int, double) { return 1; });
+    // Hats over any grid hold a constant exactly.
+    cli::writeCube(folder / "coarse.exr", 2, 2, "360:830:10", [](int, int, double) { return 1; });
+    cli::writeCube(folder / "brighter.exr", 2, 2, "360:830:10",
+                   [](int x, int, double) { return x == 0 ? 1 : 1.1; });
+    const json same = run(folder, {"compare", "fine.exr", "coarse.exr", "--colours", "--json"}).json();
+    CHECK(same.at("deltae00").at("max").get<double>() < 1e-4);
+    CHECK(same.at("band_rmse").is_null());
+    CHECK(same.at("gfc_min").is_null());
+    const json other = run(folder, {"compare", "fine.exr", "brighter.exr", "--colours", "--json"}).json();
+    CHECK(other.at("deltae00").at("p99").get<double>() > 1);
+    CHECK(other.at("deltae00").at("max").get<double>() ==
+          Approx(2 * other.at("deltae00").at("mean").get<double>()));
+    const Outcome table =
+        run(folder, {"compare", "fine.exr", "coarse.exr", "--colours", "--max-deltae", "1"});
+    CHECK(table.code == 0);
+    CHECK_THAT(table.out, Catch::StartsWith("CIEDE2000"));
+}
+
 TEST_CASE("two black cubes have no difference that could be undefined to their harm") {
     const Folder folder;
     cli::writeCube(folder / "black.exr", 2, 2, "400:700:10", [](int, int, double) { return 0; });
