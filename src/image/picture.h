@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace spectrad {
@@ -20,6 +21,15 @@ void writePng(const std::filesystem::path& target, const Picture8& picture,
               const std::map<std::string, std::string>& text = {}, bool srgb = true);
 /// As grey, RGB or RGBA, whatever the file's own form; 16-bit files are rounded. Throws InputError.
 [[nodiscard]] Picture8 readPng(const std::filesystem::path& path);
+/// The same of a file in memory; `name` is what errors call it.
+[[nodiscard]] Picture8 decodePng(std::string_view bytes, const std::string& name);
+/// As grey or RGB; four inks (CMYK) are refused. Throws InputError, also for a file that ends early.
+[[nodiscard]] Picture8 decodeJpeg(std::string_view bytes, const std::string& name);
+/// PNG or JPEG, whichever the first bytes say.
+[[nodiscard]] Picture8 decodePicture(std::string_view bytes, const std::string& name);
+[[nodiscard]] Picture8 readPicture8(const std::filesystem::path& path);
+/// Whether a file is a picture by its name: .png, .jpg, .jpeg, in any case.
+[[nodiscard]] bool isPictureName(const std::string& name);
 
 /// Float channels, planes[channel][y * width + x], with string attributes; whole or not at all. Throws
 /// InputError for a value that is not finite.

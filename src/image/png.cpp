@@ -112,14 +112,17 @@ void writePng(const std::filesystem::path& target, const Picture8& picture,
 }
 
 Picture8 readPng(const std::filesystem::path& path) {
-    const std::string bytes = readFile(path);
+    return decodePng(readFile(path), path.string());
+}
+
+Picture8 decodePng(std::string_view bytes, const std::string& name) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
     const auto check = [&](int done) {
         if (done != 0) return;
         const std::string message = image.message;
         png_image_free(&image);
-        throw InputError({path.string()}, "cannot be read as PNG: " + message);
+        throw InputError({name}, "cannot be read as PNG: " + message);
     };
     check(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()));
     const bool alpha = (image.format & PNG_FORMAT_FLAG_ALPHA) != 0,
@@ -134,8 +137,8 @@ Picture8 readPng(const std::filesystem::path& path) {
     // deflate makes at most 1032 bytes of one: a damaged header claims more.
     if (PNG_IMAGE_SIZE(image) / 4096 > bytes.size()) {
         png_image_free(&image);
-        throw InputError({path.string()}, fmt::format("damaged: {}x{} pixels cannot be in {} bytes",
-                                                      picture.width, picture.height, bytes.size()));
+        throw InputError({name}, fmt::format("damaged: {}x{} pixels cannot be in {} bytes", picture.width,
+                                             picture.height, bytes.size()));
     }
     picture.pixels.resize(PNG_IMAGE_SIZE(image));
     check(png_image_finish_read(&image, nullptr, picture.pixels.data(), 0, nullptr));

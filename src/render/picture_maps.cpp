@@ -45,7 +45,7 @@ std::pair<size_t, float> between(const Select& select, std::uint32_t value) {
 }  // namespace
 
 Texels strengthMap(const TextureUse& use) {
-    const Picture8 picture = readPng(use.source);
+    const Picture8 picture = pictureOf(use);
     Texels map = emptyLike(picture, 1);
     const auto channels = static_cast<size_t>(picture.channels);
     for (size_t i = 0; i < picture.pixels.size(); i += channels) {
@@ -59,7 +59,7 @@ Texels strengthMap(const TextureUse& use) {
 
 Texels shareMap(const Select& select) {
     const TextureUse& use = select.map;
-    const Picture8 picture = readPng(use.source);
+    const Picture8 picture = pictureOf(use);
     const auto channels = static_cast<size_t>(picture.channels);
     const bool coloured = select.choices.back().value > 255;
     Texels map = emptyLike(picture, select.choices.size());
@@ -116,7 +116,7 @@ Texels reliefMap(const Relief& relief) {
             }
         return slopes;
     }
-    const Picture8 picture = readPng(use.source);
+    const Picture8 picture = pictureOf(use);
     if (picture.channels < 3)
         throw InputError(
             use.where,

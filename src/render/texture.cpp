@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <unordered_map>
 
 namespace spectrad {
 
@@ -80,35 +81,42 @@ SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& note
     return texture;
 }
 
-SpectralTexture textureFromPicture(const Picture8& picture, const Library& library) {
+bool isPicture(const TextureUse& use) {
+    return use.bytes || isPictureName(use.source);
+}
+
+Picture8 pictureOf(const TextureUse& use) {
+    return use.bytes ? decodePicture(*use.bytes, use.source) : readPicture8(use.source);
+}
+
+SpectralTexture textureFromPicture(const Picture8& picture, const Library& library,
+                                   const std::array<double, 3>& tint) {
     SpectralTexture texture;
     texture.width = picture.width;
     texture.height = picture.height;
     texture.nm = regularWavelengths(380, 780, 10, {}).nm;
-    const ColourLift lift(library);
-    std::map<std::array<std::uint8_t, 3>, std::vector<float>> known;  // pictures repeat their colours
-    const auto linear = [](std::uint8_t encoded) {
+    const size_t bands = texture.nm.size(), channels = static_cast<size_t>(picture.channels);
+    const ColourLift lift(library, texture.nm);
+    const auto linear = [](std::uint32_t encoded) {
         const double v = encoded / 255.0;
         return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
     };
-    for (size_t i = 0; i < picture.pixels.size(); i += static_cast<size_t>(picture.channels)) {
+    // Pictures repeat their colours: each is lifted once.
+    std::unordered_map<std::uint32_t, size_t> first;  // where a colour's curve begins, by 0xRRGGBB
+    std::vector<float> curves;
+    texture.texels.reserve(picture.pixels.size() / channels * bands);
+    for (size_t i = 0; i < picture.pixels.size(); i += channels) {
         const std::uint8_t* p = picture.pixels.data() + i;
-        const std::array<std::uint8_t, 3> rgb = picture.channels < 3
-                                                    ? std::array<std::uint8_t, 3>{p[0], p[0], p[0]}
-                                                    : std::array<std::uint8_t, 3>{p[0], p[1], p[2]};
-        auto found = known.find(rgb);
-        if (found == known.end()) {
-            const LiftedColour colour = lift.fit({linear(rgb[0]), linear(rgb[1]), linear(rgb[2])});
-            std::vector<float> curve;
-            // Lines between samples of a curve lie inside its bends, by h² / 12 of the second derivative on
-            // average: taken off the samples, so that the colour is right.
-            for (double nm : texture.nm) {
-                const double here = colour.at(nm), bend = colour.at(nm - 10) - 2 * here + colour.at(nm + 10);
-                curve.push_back(static_cast<float>(std::clamp(here - bend / 12, 0.0, 1.0)));
-            }
-            found = known.emplace(rgb, std::move(curve)).first;
+        const std::uint32_t r = p[0], g = channels < 3 ? r : p[1], b = channels < 3 ? r : p[2];
+        const auto [found, isNew] = first.try_emplace(r << 16 | g << 8 | b, curves.size());
+        if (isNew) {
+            const LiftedColour colour =
+                lift.fit({linear(r) * tint[0], linear(g) * tint[1], linear(b) * tint[2]});
+            for (double nm : texture.nm)
+                curves.push_back(static_cast<float>(colour.at(nm)));
         }
-        texture.texels.insert(texture.texels.end(), found->second.begin(), found->second.end());
+        const float* curve = curves.data() + found->second;
+        texture.texels.insert(texture.texels.end(), curve, curve + bands);
     }
     return texture;
 }
@@ -133,16 +141,16 @@ SpectralTexture TextureLoader::load(const TextureUse& use) {
         throw InputError(use.where, "there is no pass '" + use.passName() + "'");
     }
     SpectralTexture texture;
-    if (use.source.ends_with(".png")) {
+    if (isPicture(use)) {
         if (use.role == TextureRole::radiance)
             throw InputError(use.where,
                              use.source +
                                  ": a picture has no radiances, so it cannot glow (a spectral cube or "
                                  "a pass can)");
-        const Picture8 picture = readPng(use.source);
+        const Picture8 picture = pictureOf(use);
         constexpr size_t liftedBands = 41;
         checkFits(use, picture.width, picture.height, liftedBands);
-        texture = textureFromPicture(picture, library_);
+        texture = textureFromPicture(picture, library_, use.tint);
     } else {
         Notes saidWhenRead;
         const CubeInfo info = readCubeInfo(use.source, saidWhenRead);

@@ -7,6 +7,7 @@
 #include "scene/scene.h"
 #include "spectrum/library.h"
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -40,8 +41,13 @@ struct SpectralTexture {
 /// cube of another kind than the use asks for (only radiance carries fluorescence; only a reflectance takes a
 /// lamp).
 [[nodiscard]] SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& notes);
-/// An RGB picture (sRGB), each colour lifted to a smooth reflectance (see lift.h), on wavelengths 380:780:10.
-[[nodiscard]] SpectralTexture textureFromPicture(const Picture8& picture, const Library& library);
+/// An RGB picture (sRGB), each colour times the tint lifted to a smooth reflectance (see lift.h), on
+/// wavelengths 380:780:10.
+[[nodiscard]] SpectralTexture textureFromPicture(const Picture8& picture, const Library& library,
+                                                 const std::array<double, 3>& tint = {1, 1, 1});
+/// A use's picture: of its file, or the bytes inside a model.
+[[nodiscard]] Picture8 pictureOf(const TextureUse& use);
+[[nodiscard]] bool isPicture(const TextureUse& use);
 
 /// Where textures come from: files here, passes by whoever can render them.
 class TextureLoader {

@@ -110,6 +110,7 @@ int stepsFor(const World& world, const sd_texture& t, double inside, int power) 
     const size_t texels = static_cast<size_t>(t.width) * static_cast<size_t>(t.height);
     for (size_t i = 0; i < texels; ++i) {
         const float* texel = world.texels.data() + t.first + i * bands;
+        if (i > 0 && std::equal(texel, texel + bands, texel - bands)) continue;  // pictures repeat colours
         for (size_t b = 0; b + 1 < bands; ++b) {
             const double low = std::min(texel[b], texel[b + 1]),
                          high = std::min<double>(std::max(texel[b], texel[b + 1]), 1);

@@ -134,6 +134,7 @@ class Graft {
         }
         for (const std::string& remark : remarks)
             notes.warn(fileLocation(model_), remark);
+        materials_.warnOfPictures(notes);
         materials_.warnOfIdleBindings(notes);
     }
 

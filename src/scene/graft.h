@@ -24,7 +24,8 @@ struct GraftOptions {
 };
 
 /// Adds the model's nodes, meshes, materials (lifted from their RGB; names made unique), lights and cameras
-/// below `parent`. A binding that matches nothing is a warning with the names there are.
+/// below `parent`; the pictures that worn materials show join scene.filesRead. A binding that matches nothing
+/// is a warning with the names there are, and so is a picture that cannot be shown.
 void graft(Scene& scene, Index parent, const ImportedScene& model, const GraftOptions& options,
            const SpectrumResolver& resolver, Notes& notes);
 

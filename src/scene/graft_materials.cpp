@@ -10,6 +10,7 @@ namespace {
 
 /// What an emission of 1 is taken as where the format states no unit: a display's white.
 constexpr double luminanceOfGlow = 100;
+constexpr double paintIndex = 1.5;
 
 std::string rgbText(const std::array<double, 3>& c) {
     return "rgb:" + shortest(c[0]) + "," + shortest(c[1]) + "," + shortest(c[2]);
@@ -56,6 +57,7 @@ GraftedMaterials::GraftedMaterials(Scene& scene, const ImportedScene& model, con
       options_(options),
       resolver_(resolver),
       where_(std::move(where)),
+      pictures_(scene, model, resolver, where_),
       number_(model.materials.size()) {
     for (size_t i = 0; i < number_.size(); ++i) {
         number_[i] = options.material;
@@ -86,15 +88,30 @@ Material GraftedMaterials::lifted(const ImportedMaterial& from) {
     Material material;
     material.name = uniqueName(from.name);
     material.where = where_;
-    if (from.metal) {
+    std::optional<TextureUse> colours;
+    if (from.colours) colours = pictures_.use(*from.colours);
+    if (from.metal && !colours) {
         material.specular = Specular{reflectance(*from.metal), from.roughness};
     } else {
         material.diffuse = Diffuse{};
-        material.diffuse->reflectance = reflectance(from.diffuse);
-        if (from.ior)
-            material.gloss =
-                Gloss{resolver_.resolve(shortest(*from.ior), Role::index, where_), from.roughness};
+        std::optional<double> ior = from.ior;
+        if (colours) {
+            // A metal has one colour here: with a picture it is taken as painted.
+            if (from.metal) {
+                pictures_.remark("material '" + from.name + "': a metal with a picture is shown as painted");
+                ior = paintIndex;
+            }
+            colours->tint = from.tint;
+            material.diffuse->texture = std::move(colours);
+        } else {
+            material.diffuse->reflectance = reflectance(from.diffuse);
+        }
+        if (ior)
+            material.gloss = Gloss{resolver_.resolve(shortest(*ior), Role::index, where_), from.roughness};
     }
+    if (from.normals)
+        if (const auto normals = pictures_.use(*from.normals))
+            material.relief = Relief{*normals, false, from.normals->amount};
     const double glow = luminanceShare(from.emissive);
     if (glow > 0) {
         const Amount amount{AmountUnit::candelaPerSquareMetre,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/graft.h"
+#include "scene/graft_pictures.h"
 
 #include <array>
 #include <map>
@@ -30,6 +31,8 @@ class GraftedMaterials {
 
     [[nodiscard]] Index of(std::uint32_t imported);
     void warnOfIdleBindings(Notes& notes) const;
+    /// What became of the pictures that worn materials name.
+    void warnOfPictures(Notes& notes) const { pictures_.warn(notes); }
 
   private:
     [[nodiscard]] Material lifted(const ImportedMaterial& from);
@@ -41,6 +44,7 @@ class GraftedMaterials {
     const GraftOptions& options_;
     const SpectrumResolver& resolver_;
     SourceLocation where_;
+    GraftedPictures pictures_;
     std::vector<std::optional<Index>> number_;          ///< of each imported material, once it is known
     std::map<std::array<double, 3>, Spectrum> lifted_;  ///< lifting is a fit: done once for each colour
 };

@@ -14,9 +14,24 @@
 
 namespace spectrad {
 
+/// A picture that a material names, and how it lies on the surface's coordinates, whose (0,0) is the lower
+/// left corner: they are scaled, then turned, then moved.
+struct ImportedPicture {
+    std::string name;                       ///< a file, as the model writes it
+    std::optional<std::uint32_t> embedded;  ///< instead: index into ImportedScene::pictures
+    bool repeat = true;                     ///< beyond 0…1; else the border goes on
+    bool nearest = false;
+    std::array<double, 2> offset{0, 0}, scale{1, 1};
+    double rotateDegrees = 0;       ///< from u to v
+    double amount = 1;              ///< of a normal map: its strength
+    std::uint32_t coordinates = 0;  ///< which of the mesh's sets; Mesh::uv is that of the colours
+};
 struct ImportedMaterial {
     std::string name;
     std::array<double, 3> diffuse{0.5, 0.5, 0.5};  ///< linear sRGB reflectance, 0…1
+    std::optional<ImportedPicture> colours;        ///< instead: sRGB colours …
+    std::array<double, 3> tint{1, 1, 1};           ///< … whose linear components are multiplied by this
+    std::optional<ImportedPicture> normals;        ///< a normal map as in glTF
     std::optional<std::array<double, 3>> metal;    ///< reflectance at normal incidence; takes diffuse's place
     std::array<double, 3> emissive{0, 0, 0};       ///< linear sRGB, ≥ 0
     std::optional<double> ior;                     ///< a coat, where the file states a specular part
@@ -49,6 +64,7 @@ struct ImportedScene {
         meshes;  ///< triangles only, positions finite, normals of the file if it has any
     std::vector<std::uint32_t> meshMaterial;  ///< one per mesh
     std::vector<ImportedMaterial> materials;
+    std::vector<std::string> pictures;  ///< files inside the model's own, byte by byte
     std::vector<ImportedLight> lights;
     std::vector<ImportedCamera> cameras;
     std::vector<ImportedNode> nodes;  ///< [0] is the root; parents before children

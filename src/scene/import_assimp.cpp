@@ -96,8 +96,14 @@ Vec3 centreOf(const aiMesh& from, const std::vector<std::uint32_t>& index) {
     return (low + high) * 0.5;
 }
 
+/// Which of a mesh's sets of texture coordinates its material's pictures lie on.
+unsigned coordinatesOf(const ImportedMaterial& material) {
+    if (material.colours) return material.colours->coordinates;
+    return material.normals ? material.normals->coordinates : 0;
+}
+
 /// nullptr if no triangle is left.
-std::shared_ptr<const Mesh> convertMesh(const aiMesh& from, Dropped& dropped) {
+std::shared_ptr<const Mesh> convertMesh(const aiMesh& from, unsigned coordinates, Dropped& dropped) {
     auto mesh = std::make_shared<Mesh>();
     mesh->index = usableTriangles(from, dropped);
     if (mesh->index.empty()) return nullptr;
@@ -105,7 +111,7 @@ std::shared_ptr<const Mesh> convertMesh(const aiMesh& from, Dropped& dropped) {
     mesh->name = oneLine(from.mName.C_Str());
     mesh->origin = centreOf(from, mesh->index);
     mesh->position.resize(from.mNumVertices);
-    const bool normals = from.mNormals != nullptr, uvs = from.HasTextureCoords(0);
+    const bool normals = from.mNormals != nullptr, uvs = from.HasTextureCoords(coordinates);
     if (normals) mesh->normal.resize(from.mNumVertices);
     if (uvs) mesh->uv.resize(from.mNumVertices);
     for (unsigned i = 0; i < from.mNumVertices; ++i) {
@@ -117,8 +123,8 @@ std::shared_ptr<const Mesh> convertMesh(const aiMesh& from, Dropped& dropped) {
         // A normal of zero length stands for "none": withNormals() puts the smooth one there.
         if (normals && finite(from.mNormals[i]))
             mesh->normal[i] = {from.mNormals[i].x, from.mNormals[i].y, from.mNormals[i].z};
-        if (uvs && finite(from.mTextureCoords[0][i]))
-            mesh->uv[i] = {from.mTextureCoords[0][i].x, from.mTextureCoords[0][i].y};
+        if (uvs && finite(from.mTextureCoords[coordinates][i]))
+            mesh->uv[i] = {from.mTextureCoords[coordinates][i].x, from.mTextureCoords[coordinates][i].y};
     }
     // Most formats arrive as three vertices a triangle. Assimp's own joining compares with a tolerance that
     // is a length in the file's unit, so it would eat the detail of small models: only what is equal is
@@ -230,6 +236,7 @@ FormatTraits traitsOf(const std::string& importerName) {
     traits.gltf = named("glTF2");
     traits.collada = named("Collada");
     traits.fbx = named("FBX");
+    traits.obj = named("Wavefront Object");
     traits.halfCones = traits.gltf || named("X3D");
     return traits;
 }
@@ -255,15 +262,17 @@ ImportedScene importWithAssimp(const fs::path& path, bool restricted) {
     scene.photometric = traits.gltf;
 
     Dropped dropped;
-    scene.materials = convertMaterials(*from, traits, scene.remarks);
+    convertMaterials(*from, traits, scene);
     std::vector<std::optional<std::uint32_t>> meshNumber(from->mNumMeshes);
     for (unsigned i = 0; i < from->mNumMeshes; ++i) {
-        auto mesh = convertMesh(*from->mMeshes[i], dropped);
+        const aiMesh& source = *from->mMeshes[i];
+        const std::uint32_t material =
+            source.mMaterialIndex < scene.materials.size() ? source.mMaterialIndex : 0;
+        auto mesh = convertMesh(source, coordinatesOf(scene.materials[material]), dropped);
         if (!mesh) continue;
         meshNumber[i] = static_cast<std::uint32_t>(scene.meshes.size());
         scene.meshes.push_back(std::move(mesh));
-        scene.meshMaterial.push_back(
-            from->mMeshes[i]->mMaterialIndex < scene.materials.size() ? from->mMeshes[i]->mMaterialIndex : 0);
+        scene.meshMaterial.push_back(material);
     }
     const NodeNames names = convertNodes(*from, meshNumber, scene);
     if (traits.fbx) scene.nodes[0].local = fbxToMetresYUp(*from) * scene.nodes[0].local;

@@ -20,6 +20,7 @@ struct FormatTraits {
     bool halfCones = false;  ///< a spot's angles are measured from its axis (glTF, X3D), not across the cone
     bool collada = false;
     bool fbx = false;
+    bool obj = false;
 };
 [[nodiscard]] FormatTraits traitsOf(const std::string& importerName);
 
@@ -33,8 +34,32 @@ struct FormatTraits {
 /// "" of a file that has no such text; control characters as blanks, at most a few hundred bytes.
 [[nodiscard]] std::string oneLine(std::string_view text);
 
-[[nodiscard]] std::vector<ImportedMaterial> convertMaterials(const aiScene& from, const FormatTraits& traits,
-                                                             std::vector<std::string>& remarks);
+/// Sets the scene's materials and pictures.
+void convertMaterials(const aiScene& from, const FormatTraits& traits, ImportedScene& to);
+
+/// The pictures that a scene's materials name: those that a material here can show become part of it, others
+/// are counted by what they are of.
+class MaterialPictures {
+  public:
+    MaterialPictures(const aiScene& from, const FormatTraits& traits, ImportedScene& to)
+        : from_(from), traits_(traits), to_(to), embedded_(from.mNumTextures) {}
+
+    /// `stated`: the colour that the file gives beside the picture.
+    void add(const aiMaterial& from, const std::array<double, 3>& stated, ImportedMaterial& to);
+    /// Says what was left out.
+    void remark() const;
+
+  private:
+    [[nodiscard]] std::optional<ImportedPicture> read(const aiMaterial& from, aiTextureType type);
+    [[nodiscard]] std::optional<std::uint32_t> embedded(const aiTexture& texture);
+    void leaveOut(const std::string& what, const std::string& name);
+
+    const aiScene& from_;
+    const FormatTraits& traits_;
+    ImportedScene& to_;
+    std::vector<std::optional<std::uint32_t>> embedded_;  ///< where each of Assimp's went
+    std::vector<std::pair<std::string, std::vector<std::string>>> leftOut_;
+};
 
 /// Assimp ties lights and cameras to nodes by name alone.
 struct NodeNames {

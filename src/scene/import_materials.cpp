@@ -126,37 +126,29 @@ ImportedMaterial convert(const aiMaterial& from, bool last, const FormatTraits& 
     return to;
 }
 
-/// The file's name for the picture on a surface, "" without one.
-std::string textureOf(const aiMaterial& from) {
-    aiString texture;
-    if (from.GetTexture(aiTextureType_BASE_COLOR, 0, &texture) == aiReturn_SUCCESS ||
-        from.GetTexture(aiTextureType_DIFFUSE, 0, &texture) == aiReturn_SUCCESS)
-        return oneLine(texture.C_Str());
-    return {};
+/// Whether something shows through, in whole or in parts.
+bool transparent(const aiMaterial& from) {
+    aiString mode;
+    if (from.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS)
+        return std::string_view(mode.C_Str()) != "OPAQUE";
+    return number(from, AI_MATKEY_OPACITY).value_or(1) < 1;
 }
 
 }  // namespace
 
-std::vector<ImportedMaterial> convertMaterials(const aiScene& from, const FormatTraits& traits,
-                                               std::vector<std::string>& remarks) {
-    std::vector<ImportedMaterial> materials;
-    std::vector<std::string> textures;
-    size_t transparent = 0;
+void convertMaterials(const aiScene& from, const FormatTraits& traits, ImportedScene& to) {
+    MaterialPictures pictures(from, traits, to);
+    size_t seenThrough = 0;
     for (unsigned i = 0; i < from.mNumMaterials; ++i) {
-        materials.push_back(convert(*from.mMaterials[i], i + 1 == from.mNumMaterials, traits, remarks));
-        if (number(*from.mMaterials[i], AI_MATKEY_OPACITY).value_or(1) < 1) ++transparent;
-        const std::string texture = textureOf(*from.mMaterials[i]);
-        if (!texture.empty() && std::find(textures.begin(), textures.end(), texture) == textures.end())
-            textures.push_back(texture);
+        const aiMaterial& source = *from.mMaterials[i];
+        to.materials.push_back(convert(source, i + 1 == from.mNumMaterials, traits, to.remarks));
+        pictures.add(source, to.materials.back().diffuse, to.materials.back());
+        if (transparent(source)) ++seenThrough;
     }
-    if (materials.empty()) materials.emplace_back();
-    for (size_t i = 0; i < std::min<size_t>(textures.size(), 3); ++i)
-        remarks.push_back("texture ignored: " + textures[i]);
-    if (textures.size() > 3)
-        remarks.push_back("and " + std::to_string(textures.size() - 3) + " more textures ignored");
-    if (transparent > 0)
-        remarks.push_back("opacity ignored in " + std::to_string(transparent) + " materials");
-    return materials;
+    if (to.materials.empty()) to.materials.emplace_back();
+    pictures.remark();
+    if (seenThrough > 0)
+        to.remarks.push_back("opacity ignored in " + std::to_string(seenThrough) + " materials");
 }
 
 }  // namespace spectrad

@@ -143,17 +143,45 @@ void meshFields(Wire& wire, AnyMesh& mesh) {
     wire.plainList(mesh.index);
 }
 
+template <typename Wire, typename AnyPicture>
+void pictureFields(Wire& wire, AnyPicture& picture) {
+    wire.text(picture.name);
+    maybe(wire, picture.embedded);
+    flag(wire, picture.repeat);
+    flag(wire, picture.nearest);
+    wire.plain(picture.offset);
+    wire.plain(picture.scale);
+    wire.plain(picture.rotateDegrees);
+    wire.plain(picture.amount);
+    wire.plain(picture.coordinates);
+}
+
+/// Whether there is one, then one if so.
+void maybePicture(Writer& wire, const std::optional<ImportedPicture>& picture) {
+    flag(wire, picture.has_value());
+    if (picture) pictureFields(wire, *picture);
+}
+void maybePicture(Reader& wire, std::optional<ImportedPicture>& picture) {
+    bool there = false;
+    flag(wire, there);
+    if (there) pictureFields(wire, picture.emplace());
+}
+
 template <typename Wire, typename AnyScene>
 void sceneFields(Wire& wire, AnyScene& scene) {
     wire.plainList(scene.meshMaterial);
     wire.list(scene.materials, [](Wire& w, auto& material) {
         w.text(material.name);
         w.plain(material.diffuse);
+        maybePicture(w, material.colours);
+        w.plain(material.tint);
+        maybePicture(w, material.normals);
         maybe(w, material.metal);
         w.plain(material.emissive);
         maybe(w, material.ior);
         w.plain(material.roughness);
     });
+    wire.list(scene.pictures, [](Wire& w, auto& bytes) { w.text(bytes); });
     wire.list(scene.lights, [](Wire& w, auto& light) {
         w.text(light.name);
         w.plain(light.type);
@@ -225,6 +253,16 @@ void check(const Mesh& mesh) {
         require(finite(t));
 }
 
+void check(const std::optional<ImportedPicture>& picture, size_t pictures) {
+    if (!picture) return;
+    constexpr double most = 1e7;
+    require(!picture->embedded || *picture->embedded < pictures);
+    for (size_t i = 0; i < 2; ++i)
+        require(within(picture->offset[i], -most, most) && within(picture->scale[i], -most, most) &&
+                picture->scale[i] != 0);
+    require(std::isfinite(picture->rotateDegrees) && within(picture->amount, 0, most));
+}
+
 /// Every node but the root is the child of exactly one that comes before it.
 void checkTree(const ImportedScene& scene) {
     require(!scene.nodes.empty());
@@ -249,6 +287,9 @@ void check(const ImportedScene& scene) {
         require(isColour(m.diffuse, 1) && isColour(m.emissive, brightest) && within(m.roughness, 0, 1));
         require(!m.ior || within(*m.ior, 1, 10));
         require(!m.metal || isColour(*m.metal, 1));
+        require(isColour(m.tint, 1));
+        check(m.colours, scene.pictures.size());
+        check(m.normals, scene.pictures.size());
     }
     for (const ImportedLight& l : scene.lights) {
         require(l.type >= ImportedLight::Type::point && l.type <= ImportedLight::Type::ambient);

@@ -69,6 +69,8 @@ std::shared_ptr<const ModelCache::Parts> modelParts(Reading& reading, const std:
     options.lightsAndCameras = false;
     if (!ownMaterials) options.material = 0;
     graft(alone, 0, importedOnce(reading, file, element), options, reading.resolver, reading.notes);
+    for (const std::string& picture : alone.filesRead)
+        reading.files.add(picture);
 
     const Index shift = static_cast<Index>(reading.scene.materials.size()) - 1;
     if (ownMaterials)
@@ -116,6 +118,8 @@ void readImport(Reading& reading, const Element& element, Index node) {
     const std::filesystem::path file = reading.file(element, "file");
     graft(reading.scene, node, importedOnce(reading, file, element), options, reading.resolver,
           reading.notes);
+    for (const std::string& picture : reading.scene.filesRead)
+        reading.files.add(picture);
 }
 
 }  // namespace spectrad

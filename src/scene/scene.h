@@ -53,6 +53,9 @@ enum class TextureMapping { surface, picture, cube };
 /// An image on a surface: where it comes from, and how it lies on the surface's texture coordinates.
 struct TextureUse {
     std::string source;  ///< file name, or "pass:NAME"
+    /// A picture inside a model's file, byte by byte; `source` then only names it.
+    std::shared_ptr<const std::string> bytes{};
+    std::array<double, 3> tint{1, 1, 1};  ///< what the linear sRGB components of a picture are multiplied by
     TextureFilter filter = TextureFilter::bilinear;
     bool repeat = false;  ///< beyond 0…1; else the border goes on
     /// Coordinates are scaled, then rotated (degrees, from u to v), then moved.

@@ -119,18 +119,50 @@ struct ColourLift::State {
     [[nodiscard]] double distance() const { return std::hypot(residual[0], residual[1], residual[2]); }
 };
 
-ColourLift::ColourLift(const Library& library) {
-    const auto lamp = library.find("illuminants/D65"), observer = library.find("observers/cie1931-2");
+namespace {
+
+/// D65 and the CIE 1931 observer.
+std::pair<Spectrum, Spectrum> lampAndObserver(const Library& library) {
+    auto lamp = library.find("illuminants/D65"), observer = library.find("observers/cie1931-2");
     if (!lamp || !observer || observer->curves.size() != 3)
         throw InputError(fmt::format("{}: the library lacks {}, which colours are lifted with",
                                      library.folder().string(),
                                      lamp ? "observers/cie1931-2" : "illuminants/D65"));
+    return {std::move(*lamp), std::move(*observer)};
+}
+
+}  // namespace
+
+ColourLift::ColourLift(const Library& library, const std::vector<double>& nodes) {
+    const auto [lamp, observer] = lampAndObserver(library);
+    weights_.resize(nodes.size());
+    Vector white{};
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        t_.push_back((nodes[i] - firstNm) / (lastNm - firstNm));
+        std::vector<double> at, value;
+        for (size_t n = i > 0 ? i - 1 : 0; n < std::min(i + 2, nodes.size()); ++n) {
+            at.push_back(nodes[n]);
+            value.push_back(n == i ? 1.0 : 0.0);
+        }
+        const Curve hat = Curve::table(at, value, Outside::hold);
+        for (size_t channel = 0; channel < 3; ++channel) {
+            const std::array<const Curve*, 3> product{&lamp.curve(), &observer.curves[channel], &hat};
+            white[channel] += weights_[i][channel] = integrate(product);
+        }
+    }
+    for (Vector& weight : weights_)
+        for (size_t channel = 0; channel < 3; ++channel)
+            weight[channel] /= white[channel];
+}
+
+ColourLift::ColourLift(const Library& library) {
+    const auto [lamp, observer] = lampAndObserver(library);
     const Wavelengths grid = regularWavelengths(firstNm, lastNm, 1, {});
     for (double nm : grid.nm)
         t_.push_back((nm - firstNm) / (lastNm - firstNm));
     weights_.resize(grid.size());
     for (size_t channel = 0; channel < 3; ++channel) {
-        const std::array<const Curve*, 2> product{&lamp->curve(), &observer->curves[channel]};
+        const std::array<const Curve*, 2> product{&lamp.curve(), &observer.curves[channel]};
         std::vector<double> weight = project(grid, product);
         double white = 0;
         for (size_t i = 0; i < weight.size(); ++i)

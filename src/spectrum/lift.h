@@ -27,6 +27,9 @@ struct LiftedColour {
 class ColourLift {
   public:
     explicit ColourLift(const Library& library);
+    /// For curves that are kept at `nodes` only (nm, ascending, two at least), linear between them and held
+    /// beyond: it is their colour that is fitted, not the smooth curve's, and fewer wavelengths are quicker.
+    ColourLift(const Library& library, const std::vector<double>& nodes);
     /// Fits linear sRGB components in 0…1 by damped Gauss–Newton on the CIE Lab difference under D65; greys
     /// are exact constants. Throws InputError for components outside 0…1.
     [[nodiscard]] LiftedColour fit(std::array<double, 3> linearSrgb) const;
@@ -37,7 +40,7 @@ class ColourLift {
                                  const std::array<double, 3>& targetLab) const;
     [[nodiscard]] State approach(State start, const std::array<double, 3>& targetLab) const;
 
-    std::vector<double> t_;                       ///< (λ − 360) / 470 at 1 nm steps
+    std::vector<double> t_;                       ///< (λ − 360) / 470 at 1 nm steps, or at the nodes
     std::vector<std::array<double, 3>> weights_;  ///< X, Y, Z of D65 under a hat there, relative to the white
 };
 

@@ -55,6 +55,8 @@ class SpectrumResolver {
     /// Turns "pass:…" and other scene-relative file names into paths: `file` beside the scene, checked
     /// against `restricted`.
     [[nodiscard]] std::filesystem::path findFile(const std::string& file, const SourceLocation& where) const;
+    /// Whether a file may be read or written at all: below the scene's folder, where only that is allowed.
+    [[nodiscard]] bool isAllowed(const std::filesystem::path& path) const;
     /// A file to write, beside the scene; checked against `restricted`.
     [[nodiscard]] std::filesystem::path outputFile(const std::string& file,
                                                    const SourceLocation& where) const;
@@ -82,7 +84,6 @@ class SpectrumResolver {
     [[nodiscard]] Spectrum fromFile(const FileUse& use, Role role, const SourceLocation& where) const;
     [[nodiscard]] Spectrum fromFormula(std::string_view text, Role role, const SourceLocation& where) const;
     [[noreturn]] void refuse(std::string_view text, const SourceLocation& where) const;
-    [[nodiscard]] bool isAllowed(const std::filesystem::path& path) const;
     [[nodiscard]] bool isOfLibrary(const Spectrum& spectrum) const;
 
     const Library& library_;

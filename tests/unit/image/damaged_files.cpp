@@ -1,5 +1,6 @@
 // Whatever is done to a file, reading it ends with a cube or with one InputError.
 #include "image/picture.h"
+#include "jpeg_bytes.h"
 #include "samples.h"
 
 #include <catch2/catch.hpp>
@@ -136,4 +137,42 @@ TEST_CASE("a truncated PNG is an error at every length") {
         writeBytes(folder / "a.png", whole.substr(0, length));
         CHECK_THROWS_AS(readPng(folder / "a.png"), InputError);
     }
+}
+
+TEST_CASE("a truncated JPEG is an error at every length, of one line with its name") {
+    const std::string whole = jpegOf(24, 16, 3, [](int x, int y, int c) { return 10 * x + 5 * y + 40 * c; });
+    CHECK(decodePicture(whole, "a.jpg").width == 24);
+    for (size_t length = 0; length + 2 < whole.size(); ++length) {  // the last two say that this is the end
+        try {
+            (void)decodePicture(whole.substr(0, length), "a.jpg");
+            FAIL("read at " << length << " of " << whole.size() << " bytes");
+        } catch (const InputError& error) {
+            CHECK(std::string(error.what()).find("a.jpg") == 0);
+            CHECK(std::string(error.what()).find('\n') == std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("a JPEG with wrong bytes is a picture or an error") {
+    const std::string whole = jpegOf(16, 16, 3, [](int x, int y, int) { return 8 * x + 8 * y; });
+    size_t refused = 0;
+    for (size_t at = 0; at < whole.size(); ++at) {
+        std::string altered = whole;
+        altered[at] = static_cast<char>(~altered[at]);
+        try {
+            (void)decodeJpeg(altered, "a.jpg");
+        } catch (const InputError&) {
+            ++refused;
+        }
+    }
+    CHECK(refused > 0);
+}
+
+TEST_CASE("a JPEG whose header claims more than its file can hold is refused before memory is taken") {
+    std::string bytes = jpegOf(16, 16, 1, [](int, int, int) { return 128; });
+    const size_t frame = bytes.find("\xff\xc0");
+    REQUIRE(frame != std::string::npos);
+    for (size_t at : {frame + 5, frame + 6, frame + 7, frame + 8})  // height and width
+        bytes[at] = static_cast<char>(0xf0);
+    CHECK_THROWS_WITH(decodeJpeg(bytes, "a.jpg"), Catch::Matchers::Contains("cannot be in"));
 }

@@ -1,4 +1,5 @@
 #include "image/picture.h"
+#include "jpeg_bytes.h"
 #include "samples.h"
 
 #include <ImfChannelList.h>
@@ -25,6 +26,32 @@ TEST_CASE("a PNG comes back with the same pixels, in grey, RGB and RGBA") {
     CHECK(back.channels == channels);
     CHECK(back.pixels == picture.pixels);
     CHECK(folder.files() == 1);
+}
+
+TEST_CASE("a JPEG's pixels come back within what its best quality keeps, in grey and RGB") {
+    const int channels = GENERATE(1, 3);
+    const auto value = [](int x, int y, int c) { return 20 + 6 * x + 3 * y + 20 * c; };
+    const Picture8 back = decodePicture(jpegOf(17, 11, channels, value), "a.jpg");
+    REQUIRE(back.width == 17);
+    REQUIRE(back.height == 11);
+    REQUIRE(back.channels == channels);
+    int worst = 0;
+    for (int y = 0; y < 11; ++y)
+        for (int x = 0; x < 17; ++x)
+            for (int c = 0; c < channels; ++c)
+                worst = std::max(
+                    worst,
+                    std::abs(back.pixels[static_cast<size_t>((y * 17 + x) * channels + c)] - value(x, y, c)));
+    CHECK(worst <= 2);
+}
+
+TEST_CASE("a JPEG of four inks is refused; a picture is what its name and its bytes say") {
+    const std::string inks = jpegOf(8, 8, 4, [](int, int, int) { return 100; });
+    CHECK_THROWS_WITH(decodeJpeg(inks, "a.jpg"), Contains("a.jpg") && Contains("CMYK"));
+    CHECK(isPictureName("a.PNG"));
+    CHECK(isPictureName("b/c.jpeg"));
+    CHECK_FALSE(isPictureName("cube.exr"));
+    CHECK_FALSE(isPictureName("png"));
 }
 
 TEST_CASE("a PNG says that it is sRGB, unless it is not, and holds its texts") {

@@ -135,7 +135,11 @@ TEST_CASE(
     REQUIRE(red.ior);
     CHECK(*red.ior == Approx(1.33).epsilon(1e-6));
     CHECK(red.roughness == Approx(0.5));  // (2 / (30 + 2))^¼
-    CHECK(contains(s.remarks, "texture ignored: wood.png"));
+    REQUIRE(red.colours);
+    CHECK(red.colours->name == "wood.png");
+    CHECK(red.colours->repeat);
+    CHECK(red.tint[0] ==
+          Approx(0.2140411).epsilon(1e-5));  // OBJ multiplies a picture by the colour beside it
     CHECK_FALSE(s.materials[s.meshMaterial[1]].ior);
     REQUIRE(s.filesRead.size() == 2);
     CHECK(s.filesRead[1].find("a.mtl") != std::string::npos);

@@ -20,6 +20,9 @@ ImportedScene sample() {
     s.meshMaterial = {0};
     s.materials.resize(1);
     s.materials[0].metal = {0.1, 0.2, 0.3};
+    s.materials[0].colours.emplace().name = "wood.png";
+    s.materials[0].colours->embedded = 0;
+    s.pictures = {std::string("\x89PNG\0x", 6)};
     s.lights.resize(1);
     s.cameras.resize(1);
     s.nodes.resize(2);
@@ -82,6 +85,10 @@ TEST_CASE("scenes that contradict themselves are refused") {
         },
         [](ImportedScene& s) { s.cameras[0].fovDegrees = 180; },
         [](ImportedScene& s) { s.materials[0].diffuse[0] = 1.5; },
+        [](ImportedScene& s) { s.materials[0].tint[2] = -0.5; },
+        [](ImportedScene& s) { s.materials[0].colours->embedded = 1; },
+        [](ImportedScene& s) { s.materials[0].colours->scale[1] = 0; },
+        [](ImportedScene& s) { s.materials[0].colours->offset[0] = NAN; },
         [](ImportedScene& s) {
             auto mesh = std::make_shared<Mesh>(*s.meshes[0]);
             mesh->index[0] = 3;

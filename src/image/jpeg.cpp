@@ -1,0 +1,111 @@
+#include "base/error.h"
+#include "base/files.h"
+#include "base/text.h"
+#include "image/picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <csetjmp>
+#include <cstdio>  // jpeglib.h does not include what it needs
+#include <jpeglib.h>
+#include <limits>
+
+namespace spectrad {
+
+namespace {
+
+/// What libjpeg is given while it reads; its errors jump out of C code, so nothing in here is made or grown
+/// on that way.
+struct JpegErrors {
+    jpeg_error_mgr base{};  // first: libjpeg hands back a pointer to it
+    std::jmp_buf back{};
+    std::array<char, JMSG_LENGTH_MAX> message{};
+};
+
+void leave(j_common_ptr jpeg) {
+    auto& errors = *reinterpret_cast<JpegErrors*>(jpeg->err);
+    errors.base.format_message(jpeg, errors.message.data());
+    std::longjmp(errors.back, 1);
+}
+
+void say(j_common_ptr) {}
+
+/// Warnings are of damaged data, which libjpeg would fill up with grey.
+void refuse(j_common_ptr jpeg, int level) {
+    if (level < 0) leave(jpeg);
+}
+
+/// False after an error. Holds no object with a destructor: libjpeg leaves it by longjmp.
+bool readHeader(jpeg_decompress_struct& jpeg, JpegErrors& errors, const unsigned char* bytes, size_t size) {
+    if (setjmp(errors.back) != 0) return false;
+    jpeg_create_decompress(&jpeg);
+    jpeg_mem_src(&jpeg, bytes, static_cast<unsigned long>(size));
+    jpeg_read_header(&jpeg, TRUE);
+    return true;
+}
+
+bool readRows(jpeg_decompress_struct& jpeg, JpegErrors& errors, unsigned char* pixels, size_t rowBytes) {
+    if (setjmp(errors.back) != 0) return false;
+    jpeg_start_decompress(&jpeg);
+    while (jpeg.output_scanline < jpeg.output_height) {
+        JSAMPROW row = pixels + size_t{jpeg.output_scanline} * rowBytes;
+        jpeg_read_scanlines(&jpeg, &row, 1);
+    }
+    jpeg_finish_decompress(&jpeg);
+    return true;
+}
+
+}  // namespace
+
+Picture8 decodeJpeg(std::string_view bytes, const std::string& name) {
+    jpeg_decompress_struct jpeg{};
+    JpegErrors errors;
+    jpeg.err = jpeg_std_error(&errors.base);
+    errors.base.error_exit = leave;
+    errors.base.output_message = say;
+    errors.base.emit_message = refuse;
+    const auto fail = [&](const std::string& message) {
+        jpeg_destroy_decompress(&jpeg);
+        throw InputError({name}, message);
+    };
+    if (!readHeader(jpeg, errors, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()))
+        fail(fmt::format("cannot be read as JPEG: {}", errors.message.data()));
+    if (jpeg.jpeg_color_space == JCS_CMYK || jpeg.jpeg_color_space == JCS_YCCK)
+        fail("a JPEG of four inks (CMYK) has no colours without their profile (allowed: grey, RGB)");
+    jpeg.out_color_space = jpeg.jpeg_color_space == JCS_GRAYSCALE ? JCS_GRAYSCALE : JCS_RGB;
+    jpeg.dct_method = JDCT_ISLOW;  // the exact one: the same pixels on every machine
+    Picture8 picture{static_cast<int>(jpeg.image_width),
+                     static_cast<int>(jpeg.image_height),
+                     jpeg.out_color_space == JCS_GRAYSCALE ? 1 : 3,
+                     {}};
+    // A block of 64 pixels takes a bit of a progressive file's scan at the very least: a damaged header
+    // claims more.
+    const size_t rowBytes = size_t{jpeg.image_width} * static_cast<size_t>(picture.channels);
+    if (size_t{jpeg.image_width} * jpeg.image_height / 4096 > bytes.size())
+        fail(fmt::format("damaged: {}x{} pixels cannot be in {} bytes", picture.width, picture.height,
+                         bytes.size()));
+    picture.pixels.resize(rowBytes * jpeg.image_height);
+    if (!readRows(jpeg, errors, picture.pixels.data(), rowBytes))
+        fail(fmt::format("cannot be read as JPEG: {}", errors.message.data()));
+    jpeg_destroy_decompress(&jpeg);
+    return picture;
+}
+
+Picture8 decodePicture(std::string_view bytes, const std::string& name) {
+    return startsWith(bytes, "\xff\xd8\xff") ? decodeJpeg(bytes, name) : decodePng(bytes, name);
+}
+
+Picture8 readPicture8(const std::filesystem::path& path) {
+    return decodePicture(readFile(path), path.string());
+}
+
+bool isPictureName(const std::string& name) {
+    std::string extension = std::filesystem::path(name).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+}
+
+}  // namespace spectrad
