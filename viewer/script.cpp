@@ -25,7 +25,8 @@ struct Line {
     [[nodiscard]] double number(size_t i) const {
         const std::optional<double> value = parseDouble(words.at(i));
         constexpr double most = 1e6;
-        if (!value || !(*value >= -most && *value <= most)) refuse("'" + words[i] + "' is not a number");
+        if (!value || !(*value >= -most && *value <= most))
+            refuse("'" + words[i] + "' is not a number from -1e6 to 1e6");
         return *value;
     }
     [[nodiscard]] int button(size_t i) const {

@@ -139,7 +139,6 @@ void addMesh(World& world, const Mesh& given, const Affine& toWorld, const View&
         for (const auto& t : tangentsOf(*source))
             world.tangent.insert(world.tangent.end(), t.begin(), t.end());
     world.vertexDraw.insert(world.vertexDraw.end(), source->position.size(), draw);
-    world.index.reserve(world.index.size() + source->index.size());
     for (std::uint32_t i : source->index)
         world.index.push_back(static_cast<std::uint32_t>(first) + i);
     world.triangleMaterial.insert(world.triangleMaterial.end(), source->triangles(), material);

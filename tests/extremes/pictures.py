@@ -172,33 +172,3 @@ def twenty_thousand_nodes(bench):
 @case('a graph a million nodes wide', heavy=True)
 def million_nodes(bench):
     wide(bench, 1000000)
-
-
-@case('an hour (or SPECTRAD_HOUR seconds) of random scenes in one viewer session does not grow', heavy=True)
-def growth(bench):
-    seconds = float(os.environ.get('SPECTRAD_HOUR', '60'))
-    # One process, many plans: a script of changes of lamp, paint and camera; peak memory after a tenth of them and after all.
-    import random
-    bench.write('scene.xml', '''<scene version="1"><material name="m"><diffuse reflectance="constant:0.5"/><gloss ior="1.5" roughness="0.4"/></material>
-      <sphere material="m"/><light name="lamp" type="point" position="2 3 4" spectrum="illuminants/D65" intensity="100 cd"/>
-      <camera fov="40" look-from="0 0 5" look-at="0 0 0" size="96x64"/></scene>''')
-    chance = random.Random(1)
-    def script(steps):
-        lines = []
-        for _ in range(steps):
-            lines.append(chance.choice((f'set lamp.times={10 ** chance.uniform(-3, 3):.4g}', f'set lamp.spectrum=blackbody:{chance.randrange(1500, 20000)}',
-                                        f'set m.reflectance=constant:{chance.random():.3f}', f'camera orbit {chance.randrange(-90, 90)} {chance.randrange(-30, 30)}',
-                                        'camera reset')))
-            lines.append('wait 1')
-        return '\n'.join(lines) + '\n'
-    def peak(steps):
-        bench.write('script', script(steps))
-        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
-        del before
-        outcome = bench.run('view', 'scene.xml', '--offscreen', 'view.png', '--script', 'script', timeout=3600 + 4 * seconds)
-        require(outcome.code == 0, str(outcome))
-        return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
-    few = peak(50)
-    many = peak(int(10 * seconds))
-    bench.remarks.append(f'peak after 50 changes {few >> 10} MiB, after {int(10 * seconds)} {many >> 10} MiB')
-    require(many <= 1.05 * few + (16 << 10), f'{few} KiB grew to {many} KiB')

@@ -7,7 +7,7 @@ import sys
 
 import harness
 
-SUITES = {'numbers': ['light_and_bands', 'surfaces', 'lengths', 'pictures'], 'faults': ['faults'], 'mutants': ['mutants']}
+SUITES = {'numbers': ['light_and_bands', 'surfaces', 'lengths', 'pictures', 'growth'], 'faults': ['faults'], 'mutants': ['mutants']}
 
 if __name__ == '__main__':
     chosen = 'numbers'
