@@ -8,6 +8,10 @@ namespace spectrad {
 
 namespace {
 
+bool showsOnePass(const World& world) {
+    return world.texels.empty() && world.resident.size() == 1;
+}
+
 std::vector<std::string> withDevice(std::vector<std::string> defines, const Device& device) {
     defines.push_back("VW=" + std::to_string(device.body().vectorWidth()));
     if (device.info().platform == "Portable Computing Language" && device.info().type == "cpu")
@@ -107,6 +111,11 @@ Stages::Stages(const Device& device, const Plan& plan, const LanePattern& lanes)
     used_.upload(device_, lanes.used.data(), lanes.used.size(), "the sample pattern");
 }
 
+const cl::Buffer& Stages::texels() const {
+    return showsOnePass(plan_.world) ? plan_.world.resident.front().texels->values.buffer()
+                                     : ownTexels_.buffer();
+}
+
 /// All texels in one buffer: the host's, then those that are on the device already. A single texture of a
 /// pass is read where it is.
 void Stages::uploadTextures() {
@@ -118,19 +127,15 @@ void Stages::uploadTextures() {
         total += part.texels->count();
     }
     textures_.upload(device_, textures.data(), textures.size(), "the textures");
-    if (world.texels.empty() && world.resident.size() == 1) {
-        texels_ = world.resident.front().texels->values.buffer();
-        return;
-    }
+    if (showsOnePass(world)) return;
     ownTexels_.reserve(device_, total, "the textures");
-    texels_ = ownTexels_.buffer();
     checked(device_.body(), "uploading the textures", [&] {
         const cl::CommandQueue& queue = device_.body().queue;
         if (!world.texels.empty())
-            queue.enqueueWriteBuffer(texels_, CL_TRUE, 0, world.texels.size() * sizeof(float),
+            queue.enqueueWriteBuffer(texels(), CL_TRUE, 0, world.texels.size() * sizeof(float),
                                      world.texels.data());
         for (const World::Resident& part : world.resident)
-            queue.enqueueCopyBuffer(part.texels->values.buffer(), texels_, 0,
+            queue.enqueueCopyBuffer(part.texels->values.buffer(), texels(), 0,
                                     textures[part.texture].first * sizeof(float),
                                     part.texels->count() * sizeof(float));
     });
@@ -339,7 +344,7 @@ bool Stages::light(int firstRow, int rows) {
         .set("light_count", static_cast<cl_uint>(plan_.world.lights.size()))
         .set("groups", static_cast<cl_uint>(plan_.groups))
         .set("textures", textures_.buffer())
-        .set("texels", texels_)
+        .set("texels", texels())
         .set("frame", frame_)
         .set("pattern_x", laneX_.buffer())
         .set("pattern_y", laneY_.buffer())

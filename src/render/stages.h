@@ -62,6 +62,8 @@ class Stages {
   private:
     void uploadWorld();
     void uploadTextures();
+    /// Those of the one pass that the scene shows, where that is its only texture; ownTexels_ else.
+    [[nodiscard]] const cl::Buffer& texels() const;
     void expandRows(int from, int rows, const DeviceArray<float>& spectra,
                     const DeviceArray<std::uint32_t>& spans, size_t bands, DeviceArray<float>& out,
                     const char* what);
@@ -81,7 +83,6 @@ class Stages {
 
     DeviceArray<float> position_, normal_, tangent_, camera_, cameraNormal_, cameraTangent_, coordinates_,
         ownTexels_, spectra_, previewSpectra_;
-    cl::Buffer texels_;  ///< ownTexels_, or those of the one pass that the scene shows
     DeviceArray<std::uint32_t> vertexDraw_, index_, triangleMaterial_;
     DeviceArray<sd_draw> draws_;
     DeviceArray<sd_vertex> screen_;

@@ -16,6 +16,17 @@ SCENE = '''<scene version="1"><wavelengths from="400" to="700" step="25"/>
   <sphere radius="1" material="m"/>
   <light name="lamp" type="directional" direction="0 -1 -1" spectrum="{lamp}" irradiance="3 W/m2"/>
   <camera fov="40" look-from="0 0 5" look-at="0 0 0" size="40x30"/></scene>'''
+# Two passes: the second shows the first, which stays on the device, beside a picture of the host's.
+PASSES = '''<scene version="1"><wavelengths from="400" to="700" step="25"/>
+  <material name="paint"><diffuse reflectance="constant:0.5"/><gloss ior="1.5" roughness="0.3 0.1"/></material>
+  <material name="shown"><emission texture="pass:inner"/></material>
+  <material name="print"><diffuse texture="pass:chart" filter="mip"/></material>
+  <node name="ball"><sphere radius="1" material="paint"/></node>
+  <node name="flat"><plane size="8 8" material="paint"/></node>
+  <node name="wall"><plane size="3 3" material="shown"/><node translate="1 0 1"><plane size="3 3" material="print"/></node></node>
+  <light name="lamp" type="directional" direction="0 -1 -1" spectrum="illuminants/D65" irradiance="3 W/m2"/>
+  <camera fov="40" look-from="0 0 5" look-at="0 0 0" size="40x30"/>
+  <pass name="inner" of="ball" lights="lamp"/><pass name="chart" of="flat" lights="lamp" as="reflectance"/><pass name="main" of="wall"/></scene>'''
 LAMP = 'illuminants/D65'
 PRECIOUS = b'precious'
 ENVI = {'image.img', 'image.hdr'}
@@ -321,9 +332,21 @@ def some_calls(bench):
     opencl_faults(bench, ('render', 'scene.xml', '-o', 'image.exr', '-q', '--samples', '1'), 'image.exr', 2, 10)
 
 
+@case('the same where passes stay on the device')
+def calls_of_passes(bench):
+    bench.write('scene.xml', PASSES)
+    opencl_faults(bench, ('render', 'scene.xml', '-o', 'image.exr', '-q', '--samples', '1'), 'image.exr', 1, 6)
+
+
 @case('every OpenCL call of a render failing in turn', heavy=True)
 def every_call(bench):
     prepared(bench)
+    opencl_faults(bench, ('render', 'scene.xml', '-o', 'image.exr', '-q', '--samples', '1'), 'image.exr', 0, 100)
+
+
+@case('every OpenCL call of three passes failing in turn', heavy=True)
+def every_call_of_passes(bench):
+    bench.write('scene.xml', PASSES)
     opencl_faults(bench, ('render', 'scene.xml', '-o', 'image.exr', '-q', '--samples', '1'), 'image.exr', 0, 100)
 
 

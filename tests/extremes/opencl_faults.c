@@ -1,6 +1,6 @@
 /* Between the program and the OpenCL loader (LD_PRELOAD): counts calls and fails the one that SPECTRAD_FAULT_AT names, counted from 1
  * (with SPECTRAD_FAULT_ON all after it too, as a lost device does), with the error SPECTRAD_FAULT_CODE. SPECTRAD_FAULT_LOG gets
- * one line a call: its function's name. Retaining is left alone: the C++ bindings release what they failed to retain. */
+ * one line a call: its function's name. */
 #define _GNU_SOURCE
 #define CL_TARGET_OPENCL_VERSION 120
 #define CL_USE_DEPRECATED_OPENCL_1_2_APIS
@@ -78,6 +78,12 @@ STATUS(clEnqueueWriteBuffer,
        (cl_command_queue a, cl_mem b, cl_bool c, size_t d, size_t f, const void* g, cl_uint h, const cl_event* i, cl_event* j),
        (a, b, c, d, f, g, h, i, j))
 STATUS(clEnqueueUnmapMemObject, (cl_command_queue a, cl_mem b, void* c, cl_uint d, const cl_event* f, cl_event* g), (a, b, c, d, f, g))
+STATUS(clRetainCommandQueue, (cl_command_queue a), (a))
+STATUS(clRetainContext, (cl_context a), (a))
+STATUS(clRetainDevice, (cl_device_id a), (a))
+STATUS(clRetainKernel, (cl_kernel a), (a))
+STATUS(clRetainMemObject, (cl_mem a), (a))
+STATUS(clRetainProgram, (cl_program a), (a))
 STATUS(clReleaseCommandQueue, (cl_command_queue a), (a))
 STATUS(clReleaseContext, (cl_context a), (a))
 STATUS(clReleaseDevice, (cl_device_id a), (a))
