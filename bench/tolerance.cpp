@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <map>
 #include <unistd.h>
@@ -25,6 +24,13 @@
 using namespace spectrad;
 
 namespace {
+
+struct Setting {
+    Wavelengths grid;
+    int samples = 1;
+    bool half = false;
+    double cost = 0;  ///< estimated, to try the cheapest first
+};
 
 struct Case {
     Scene scene;
@@ -52,34 +58,34 @@ struct Case {
     [[nodiscard]] double error(const ChannelImage& image) const {
         return colourDifference(right, image, white).p99;
     }
-    /// Processor time of rendering once and writing, s; the best of three. (Not the clock's: other programs
-    /// may run.)
-    [[nodiscard]] double seconds(const Wavelengths& grid, int samples, bool half, bool schlick) const {
-        const auto file =
-            std::filesystem::temp_directory_path() / fmt::format("spectrad-bench-{}.exr", getpid());
+    [[nodiscard]] Entry entryFor(const Wavelengths& grid, int samples, bool schlick) const {
         RenderSettings settings;
         settings.wavelengths = grid;
         settings.samples = samples;
+        settings.size = {4 * size.first, 4 * size.second};  // long enough to be timed
         Entry entry{planned(schlick ? withSchlick(scene) : scene, settings), {}};
         entry.weights = weightsOn(grid, observer);
-        const auto spent = [&](int rounds, const std::filesystem::path& to) {
-            const std::clock_t start = std::clock();
-            const Trial done = tryOut(device, entry, {half, 24}, {rounds, false, to});
-            return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+        return entry;
+    }
+    /// What rendering and writing with one setting takes ÷ with another: in turns, so that other programs
+    /// disturb both, and the best of five of each.
+    [[nodiscard]] double ratio(const Chosen& a, const Setting& b) const {
+        const auto file =
+            std::filesystem::temp_directory_path() / fmt::format("spectrad-bench-{}.exr", getpid());
+        const Entry first = entryFor(a.wavelengths, a.samples, a.schlick),
+                    second = entryFor(b.grid, b.samples, false);
+        const auto seconds = [&](const Entry& entry, bool half) {
+            const Trial trial = tryOut(device, entry, {half, 24}, {2, false, file});
+            return trial.renderSeconds + trial.writeSeconds;
         };
-        double best = 1e9;
-        for (int round = 0; round < 3; ++round)
-            best = std::min(best, std::max(1e-4, spent(2, file) - spent(1, {})));
-        return best;
+        double of = 1e9, by = 1e9;
+        for (int round = 0; round < 5; ++round) {
+            of = std::min(of, seconds(first, a.half));
+            by = std::min(by, seconds(second, b.half));
+        }
+        return of / by;
     }
     std::pair<int, int> size{150, 100};
-};
-
-struct Setting {
-    Wavelengths grid;
-    int samples = 1;
-    bool half = false;
-    double cost = 0;  ///< estimated, to try the cheapest first
 };
 
 std::vector<Setting> everySetting() {
@@ -168,15 +174,14 @@ void run(std::vector<std::string> scenes) {
                 ++all;
                 kept += error <= bound;
                 double ratio = 0;
-                if (cheapest)
-                    ratio = c.seconds(chosen.wavelengths, chosen.samples, chosen.half, chosen.schlick) /
-                            c.seconds(cheapest->grid, cheapest->samples, cheapest->half, false);
+                if (cheapest) ratio = c.ratio(chosen, *cheapest);
                 cheap += ratio <= 1.5;
                 worstRatio = std::max(worstRatio, ratio);
-                std::printf("%s, %s, %s: %zu %d %s | %.3g | %.2f (%zu %d)%s\n", name.c_str(), lamp, tolerance,
-                            chosen.wavelengths.size(), chosen.samples, chosen.half ? "half" : "float", error,
-                            ratio, cheapest ? cheapest->grid.size() : 0, cheapest ? cheapest->samples : 0,
-                            error <= bound ? "" : "  NOT KEPT");
+                std::printf(
+                    "%s, %s, %s: %zu %d %s | %.3g | %.2f (%zu %d %s)%s\n", name.c_str(), lamp, tolerance,
+                    chosen.wavelengths.size(), chosen.samples, chosen.half ? "half" : "float", error, ratio,
+                    cheapest ? cheapest->grid.size() : 0, cheapest ? cheapest->samples : 0,
+                    cheapest && cheapest->half ? "half" : "float", error <= bound ? "" : "  NOT KEPT");
                 std::fflush(stdout);
             }
         }

@@ -5,6 +5,7 @@
 #include "cli/console.h"
 #include "cli/observation.h"
 #include "cli/options.h"
+#include "cli/verified_image.h"
 #include "colour/develop.h"
 #include "image/cube.h"
 #include "image/picture.h"
@@ -233,12 +234,6 @@ void checkSaves(const std::vector<GraphNode>& graph, const Output& output) {
         }
 }
 
-Detector observerOf(const VerifyArguments& arguments, const Library& library) {
-    Notes unheard;
-    const SpectrumResolver resolver(library, {}, false, unheard);
-    return asUsage("--observer", [&] { return detectorFor(arguments.observer, resolver, {}); });
-}
-
 /// Settings for --tolerance; changes what is asked for to what was chosen.
 Chosen chooseSettings(const RenderArguments& arguments, Scene& scene, RenderSettings& settings,
                       Output& output, const Library& library, const Device& device) {
@@ -261,23 +256,6 @@ Chosen chooseSettings(const RenderArguments& arguments, Scene& scene, RenderSett
     output.options.half = chosen.half;
     if (chosen.schlick) scene = withSchlick(scene);
     return chosen;
-}
-
-/// Renders the image once without writing it, for the pixels that are drawn: the file's header, which holds
-/// the certificate, comes first.
-Certificate verified(const VerifyArguments& arguments, const Scene& scene, const RenderSettings& settings,
-                     const Plan& plan, const CubeInfo& info, bool half, const Library& library,
-                     const Device& device, bool quiet) {
-    const Detector observer = observerOf(arguments, library);
-    const Reference reference(scene, settings, plan.wavelengths, observer, library, device);
-    PixelSample sample(info, parseShare("--verify", arguments.share), parseSeed(arguments.seed), observer,
-                       half);
-    ProgressBar bar("verifying", quiet);
-    Renderer renderer(device, plan);
-    renderer.render(
-        [&](int firstRow, int rows, const float* bands, const float*) { sample.add(firstRow, rows, bands); });
-    const White white = defaultWhite(scene, settings, observer, library, device, sample.brightest());
-    return certify(sample, reference, observer, white, [&](double share) { bar.show(share); });
 }
 
 ExitCode render(const RenderArguments& arguments) {
@@ -315,13 +293,13 @@ ExitCode render(const RenderArguments& arguments) {
     const Plan plan = makePlan(scene, settings, library, passes, console.notes());
     seconds.plan = clock.lap();
     CubeInfo info = cubeInfo(arguments, scene, plan, *device);
-    std::optional<Certificate> certificate;
+    std::optional<VerifiedImage> judged;
     if (!arguments.verify.share.empty() || chosen) {
         VerifyArguments how = arguments.verify;
         if (how.share.empty()) how.share = "1%";
-        certificate = verified(how, asked, settings, plan, info, output.options.half, library, *device,
-                               arguments.quiet);
-        info.attributes.merge(attributesOf(*certificate));
+        judged = verified(how, asked, settings, plan, info, output.options.half, library, *device,
+                          arguments.quiet);
+        info.attributes.merge(attributesOf(judged->certificate));
         seconds.verify = clock.lap();
     }
     if (chosen) info.attributes.merge(attributesOf(*chosen, arguments.tolerance));
@@ -339,7 +317,13 @@ ExitCode render(const RenderArguments& arguments) {
         preview.add(firstRow, rows, linear);
         seconds.write += waiting.seconds();
     };
-    if (plan.as == PassKind::radiance && plan.faces == 1 && !(target && target->screen)) {
+    if (judged && judged->kept) {
+        const KeptImage& kept = *judged->kept;
+        deliver(0, info.height, kept.bands.data(), kept.preview.data());
+        seconds.build = kept.times.build;
+        seconds.render = kept.times.render;
+        seconds.verify -= kept.times.build + kept.times.render;
+    } else if (plan.as == PassKind::radiance && plan.faces == 1 && !(target && target->screen)) {
         Renderer renderer(*device, plan);
         ProgressBar bar("rendering", arguments.quiet);
         renderer.render(deliver, [&](double share) { bar.show(share); });
@@ -360,9 +344,9 @@ ExitCode render(const RenderArguments& arguments) {
     console.printNotes();
     if (arguments.json) {
         Json out = described(output, plan, *device, seconds);
-        if (certificate) {
+        if (judged) {
             out["seconds"]["verify"] = seconds.verify;
-            out["certificate"] = described(*certificate);
+            out["certificate"] = described(judged->certificate);
         }
         if (chosen) {
             out["seconds"]["choose"] = seconds.choose;
@@ -372,9 +356,9 @@ ExitCode render(const RenderArguments& arguments) {
     } else if (!arguments.quiet) {
         printSummary(output, plan, seconds);
         if (chosen) printText(inWords(*chosen, arguments.tolerance));
-        if (certificate) printText(inWords(*certificate));
+        if (judged) printText(inWords(judged->certificate));
     }
-    if (chosen) return toleranceVerdict(*chosen, *certificate, arguments.tolerance);
+    if (chosen) return toleranceVerdict(*chosen, judged->certificate, arguments.tolerance);
     return ExitCode::ok;
 }
 

@@ -30,7 +30,8 @@ struct Chosen {
 };
 
 /// Tries settings on the scene's own picture (made smaller beyond 700 000 pixels, where edges count for
-/// more), against 64 samples with exact spectra. Throws InputError for what cannot be certified.
+/// more; for `max:` beyond 4 million), against 64 samples with exact spectra. Throws InputError for what
+/// cannot be certified.
 [[nodiscard]] Chosen choose(const Scene& scene, const ChooserSettings& settings, const Detector& observer,
                             const Library& library, const Device& device, const Planner& planner,
                             const Progress& progress);

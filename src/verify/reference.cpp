@@ -1,5 +1,6 @@
 #include "verify/reference.h"
 
+#include "base/parallel.h"
 #include "colour/observe.h"
 #include "render/passes.h"
 #include "render/texels.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <mutex>
 
 namespace spectrad {
 
@@ -100,30 +102,39 @@ void Reference::shadePixel(const Plan& plan, const sd_frame& frame, const PixelP
 
 std::vector<ReferencePixel> Reference::at(std::span<const PixelPlace> places,
                                           const Progress& progress) const {
-    constexpr size_t chunk = 4096;  // pixels whose samples are kept at once
+    constexpr size_t chunk = 1024;  // pixels whose samples a thread keeps at once
     const SamplePattern pattern = samplePattern(referenceSamples);
     std::vector<ReferencePixel> out(places.size());
-    std::vector<double> g;
-    for (size_t first = 0; first < places.size(); first += chunk) {
+    std::mutex reporting;
+    size_t done = 0;
+    inParallel((places.size() + chunk - 1) / chunk, [&](size_t part) {
+        const size_t first = part * chunk;
         const auto some = places.subspan(first, std::min(chunk, places.size() - first));
         const std::vector<std::uint32_t> seen = trianglesSeen(wide_.world, vertices_, frame_, pattern, some);
-        for (size_t i = 0; i < some.size(); ++i) {
-            const std::uint32_t* samples = seen.data() + i * pattern.x.size();
-            ReferencePixel& pixel = out[first + i];
-            shadePixel(wide_, frame_, some[i], samples, g);
-            for (size_t t = 0; t < g.size(); ++t)
-                for (size_t c = 0; c < 3 && g[t] != 0; ++c)
-                    pixel.xyz[c] += g[t] * wide_.terms.exactChannels[3 * t + c];
-            if (!sameLobes_) shadePixel(own_, frame_, some[i], samples, g);
-            const size_t bands = own_.terms.bands;
-            pixel.bands.assign(bands, 0.0);
-            for (size_t t = 0; t < g.size(); ++t)
-                for (size_t b = 0; b < bands && g[t] != 0; ++b)
-                    pixel.bands[b] += g[t] * own_.terms.exactSpectra[t * bands + b];
-        }
-        if (progress) progress(static_cast<double>(first + some.size()) / static_cast<double>(places.size()));
-    }
+        std::vector<double> g;
+        for (size_t i = 0; i < some.size(); ++i)
+            out[first + i] = pixelAt(some[i], seen.data() + i * pattern.x.size(), g);
+        const std::lock_guard lock(reporting);
+        done += some.size();
+        if (progress) progress(static_cast<double>(done) / static_cast<double>(places.size()));
+    });
     return out;
+}
+
+ReferencePixel Reference::pixelAt(const PixelPlace& place, const std::uint32_t* seen,
+                                  std::vector<double>& g) const {
+    ReferencePixel pixel;
+    shadePixel(wide_, frame_, place, seen, g);
+    for (size_t t = 0; t < g.size(); ++t)
+        for (size_t c = 0; c < 3 && g[t] != 0; ++c)
+            pixel.xyz[c] += g[t] * wide_.terms.exactChannels[3 * t + c];
+    if (!sameLobes_) shadePixel(own_, frame_, place, seen, g);
+    const size_t bands = own_.terms.bands;
+    pixel.bands.assign(bands, 0.0);
+    for (size_t t = 0; t < g.size(); ++t)
+        for (size_t b = 0; b < bands && g[t] != 0; ++b)
+            pixel.bands[b] += g[t] * own_.terms.exactSpectra[t * bands + b];
+    return pixel;
 }
 
 }  // namespace spectrad

@@ -32,7 +32,8 @@ class Reference {
 
     [[nodiscard]] int width() const { return wide_.view.width; }
     [[nodiscard]] int height() const { return wide_.view.height; }
-    /// `places` ascend by y, then x.
+    /// `places` ascend by y, then x. On all cores; each pixel's sums have one order, so the result is the
+    /// same on any number of them.
     [[nodiscard]] std::vector<ReferencePixel> at(std::span<const PixelPlace> places,
                                                  const Progress& progress = {}) const;
     /// What it takes from the renderer instead of computing it itself, one line each: passes.
@@ -42,6 +43,9 @@ class Reference {
     [[nodiscard]] const Triple& white() const { return wide_.white; }
 
   private:
+    /// What its samples `seen` (triangles) add up to; `g` is scratch.
+    [[nodiscard]] ReferencePixel pixelAt(const PixelPlace& place, const std::uint32_t* seen,
+                                         std::vector<double>& g) const;
     void shadePixel(const Plan& plan, const sd_frame& frame, const PixelPlace& place,
                     const std::uint32_t* seen, std::vector<double>& g) const;
 

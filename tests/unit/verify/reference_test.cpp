@@ -73,6 +73,22 @@ TEST_CASE(
     CHECK(c.taken.empty());
 }
 
+TEST_CASE("the reference of a pixel is the same bits among all pixels, on all cores, and alone") {
+    JudgedScene s(everything);
+    const Reference reference(s.scene, {}, s.plan().wavelengths, s.observer, s.library, s.device);
+    std::vector<PixelPlace> places;
+    for (int y = 0; y < reference.height(); ++y)
+        for (int x = 0; x < reference.width(); ++x)
+            places.push_back({x, y});
+    const std::vector<ReferencePixel> together = reference.at(places);
+    REQUIRE(together.size() > 4096);  // several threads' worth
+    for (size_t i = 0; i < places.size(); i += 641) {
+        const ReferencePixel alone = reference.at(std::span(&places[i], 1)).front();
+        CHECK(alone.xyz == together[i].xyz);
+        CHECK(alone.bands == together[i].bands);
+    }
+}
+
 TEST_CASE("a scene of one bad sample a pixel is told from one of many") {
     JudgedScene s(everything);
     RenderSettings coarse, fine;
