@@ -84,11 +84,11 @@ class Desk {
     Desk(const std::filesystem::path& scene, const Device& device, const Library& library,
          const char* wavelengths, bool panels)
         : session_(
-              [=, this, &library] {
+              [=, &library](Notes& notes) {
                   RenderSettings settings;
                   settings.wavelengths = parseWavelengths(wavelengths, {});
                   return std::make_unique<view::SceneSubject>(scene, LoadOptions{}, settings, device, library,
-                                                              notes_);
+                                                              notes);
               },
               library, notes_),
           face_(view::openOffscreen(width, height)),
@@ -206,7 +206,7 @@ void run(int rounds) {
 #ifdef SPECTRAD_OSMESA
     bench::Llvmpipe theirs(inWorld(plain->scene().plan()), 1, true);
     moving.emplace_back([&] {
-        theirs.look(worldToCamera(plain->scene().pose()));
+        theirs.look(worldToCamera(plain->session().stand.pose));
         theirs.draw();
     });
 #endif

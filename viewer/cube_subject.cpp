@@ -1,5 +1,6 @@
 #include "viewer/cube_subject.h"
 
+#include "base/stopped.h"
 #include "colour/develop.h"
 #include "image/envi_read.h"
 #include "render/cube_light.h"
@@ -8,6 +9,51 @@
 #include <cmath>
 
 namespace spectrad::view {
+
+/// A row of a cube that is too large to be held, read by the meter's own reader.
+struct CubeSubject::MeterRow {
+    std::unique_ptr<CubeReader> reader;
+    std::vector<float> values;
+    int y = -1;
+};
+
+class CubeSubject::CubeStill : public Still {
+  public:
+    CubeStill(std::shared_ptr<const Eye> eye, DetectorWeights weights, CubeInfo info,
+              std::shared_ptr<const std::vector<float>> whole, std::shared_ptr<MeterRow> row)
+        : Still(std::move(eye)),
+          weights_(std::move(weights)),
+          info_(std::move(info)),
+          whole_(std::move(whole)),
+          row_(std::move(row)) {}
+
+    [[nodiscard]] std::vector<double> spectrumAt(int x, int y) override {
+        if (x < 0 || y < 0 || x >= info_.width || y >= info_.height) return {};
+        const size_t across = static_cast<size_t>(info_.width), count = info_.wavelengths.size();
+        const float* bands = whole_ ? whole_->data() + static_cast<size_t>(y) * count * across : row(y);
+        std::vector<double> spectrum;
+        for (size_t band = 0; band < count; ++band)
+            spectrum.push_back(static_cast<double>(bands[band * across + static_cast<size_t>(x)]));
+        return spectrum;
+    }
+    [[nodiscard]] DetectorWeights weights() const override { return weights_; }
+
+  private:
+    [[nodiscard]] const float* row(int y) {
+        if (row_->y != y) {
+            row_->y = -1;
+            row_->values.resize(info_.wavelengths.size() * static_cast<size_t>(info_.width));
+            row_->reader->read(y, 1, row_->values.data());
+            row_->y = y;
+        }
+        return row_->values.data();
+    }
+
+    DetectorWeights weights_;
+    CubeInfo info_;
+    std::shared_ptr<const std::vector<float>> whole_;
+    std::shared_ptr<MeterRow> row_;
+};
 
 namespace {
 
@@ -25,10 +71,10 @@ double timesOf(const Look& look) {
 CubeSubject::CubeSubject(const std::filesystem::path& file, const Library& library, Notes& notes,
                          size_t mostHeld)
     : file_(file),
-      notes_(notes),
-      resolver_(library, file.parent_path(), false, notes),
       standard_(standardEye(library)),
-      reader_(openCube(file, notes)) {
+      reader_(openCube(file, notes)),
+      resolver_(library, file.parent_path(), false, unsaid_),
+      held_(std::make_shared<std::vector<float>>()) {
     const size_t rowBytes = sizeof(float) * wavelengths().size() * static_cast<size_t>(width());
     const auto rowsIn = [&](size_t bytes) {
         return static_cast<int>(std::clamp<size_t>(bytes / rowBytes, 1, static_cast<size_t>(height())));
@@ -37,8 +83,19 @@ CubeSubject::CubeSubject(const std::filesystem::path& file, const Library& libra
     if (stripRows_ < height()) {
         stripRows_ = rowsIn(std::min(mostHeld, stripBytes));
         if (stripRows_ > blockRows) stripRows_ -= stripRows_ % blockRows;
+        meter_ = std::make_shared<MeterRow>();
+        meter_->reader = openCube(file, unsaid_);
+    }
+    first_.eye = std::make_shared<const Eye>(standard_);
+    if (lit()) {
+        LightSetting light;
+        light.name = "light";
+        light.emitter.spectrum = resolver_.resolve(daylight, Role::light, {});
+        first_.lights.push_back(std::move(light));
     }
 }
+
+CubeSubject::~CubeSubject() = default;
 
 bool CubeSubject::lit() const {
     return needsLight(info().kind);
@@ -50,28 +107,17 @@ std::vector<std::filesystem::path> CubeSubject::files() const {
     return all;
 }
 
-Look CubeSubject::firstLook() const {
-    Look look;
-    look.eye = std::make_shared<const Eye>(standard_);
-    if (lit()) {
-        LightSetting light;
-        light.name = "light";
-        light.emitter.spectrum = resolver_.resolve(daylight, Role::light, {});
-        look.lights.push_back(std::move(light));
-    }
-    return look;
-}
-
 const float* CubeSubject::row(int y) {
     if (y < heldFrom_ || y >= heldTo_) {
         const int from = y - y % stripRows_, rows = std::min(stripRows_, height() - from);
+        throwIfStopped(stop());
         heldFrom_ = heldTo_ = 0;
-        held_.resize(static_cast<size_t>(rows) * wavelengths().size() * static_cast<size_t>(width()));
-        reader_->read(from, rows, held_.data());
+        held_->resize(static_cast<size_t>(rows) * wavelengths().size() * static_cast<size_t>(width()));
+        reader_->read(from, rows, held_->data());
         heldFrom_ = from;
         heldTo_ = from + rows;
     }
-    return held_.data() +
+    return held_->data() +
            static_cast<size_t>(y - heldFrom_) * wavelengths().size() * static_cast<size_t>(width());
 }
 
@@ -136,18 +182,15 @@ void CubeSubject::showMixed(const Look& a, const Look& b, double mix, const Show
     encodeCodes(mixed, shown, codes);
 }
 
-std::vector<double> CubeSubject::spectrumAt(int x, int y, const Look&) {
-    if (x < 0 || y < 0 || x >= width() || y >= height()) return {};
-    const float* bands = row(y) + x;
-    std::vector<double> spectrum;
-    for (size_t band = 0; band < wavelengths().size(); ++band)
-        spectrum.push_back(static_cast<double>(bands[band * static_cast<size_t>(width())]));
-    return spectrum;
+std::shared_ptr<Still> CubeSubject::still(const Look& look) {
+    if (!meter_) (void)row(0);  // all rows are held then
+    return std::make_shared<CubeStill>(look.eye, weights(look), info(), meter_ ? nullptr : held_, meter_);
 }
 
 White CubeSubject::white(const Look& look) {
     const Detector& detector = look.eye->detector;
-    if (!lit()) return statedWhite(info(), detector, look.eye->matrix, standard_.detector, resolver_, notes_);
+    if (!lit())
+        return statedWhite(info(), detector, look.eye->matrix, standard_.detector, resolver_, unsaid_);
     const Spectrum& light = look.lights.at(0).emitter.spectrum;
     return withLuminance(whiteOf(light.text, light.curve(), detector, look.eye->matrix, {}), diffuserY);
 }

@@ -37,14 +37,14 @@ void drawLight(Session& session, PanelState& state, size_t number) {
 void drawLights(Session& session, PanelState& state) {
     if (!ImGui::CollapsingHeader("Lights", ImGuiTreeNodeFlags_DefaultOpen)) return;
     if (session.look(session.edited).lights.empty())
-        ImGui::TextDisabled(session.scene() ? "the scene has none" : "the cube has its light already");
+        ImGui::TextDisabled(session.aboutScene() ? "the scene has none" : "the cube has its light already");
     for (size_t i = 0; i < session.look(session.edited).lights.size(); ++i)
         drawLight(session, state, i);
 }
 
 void drawMaterials(Session& session, PanelState& state) {
     if (!ImGui::CollapsingHeader("Materials", state.selected ? ImGuiTreeNodeFlags_DefaultOpen : 0)) return;
-    const std::vector<Material>& materials = session.scene()->scene().materials;
+    const std::vector<Material>& materials = session.aboutScene()->scene().materials;
     Look& look = session.look(session.edited);
     for (Index m = 0; m < materials.size(); ++m) {
         const Material& material = materials[m];
@@ -91,17 +91,18 @@ void drawStatus(Session& session, const PanelState& state, float width, float he
     ImGui::Begin("##status", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoInputs);
-    std::string line = state.samples > 0
-                           ? fmt::format("{} sample{}", state.samples, state.samples == 1 ? "" : "s")
-                           : fmt::format("{} x {} pixels, {} bands, {}", session.subject().width(),
-                                         session.subject().height(), session.subject().wavelengths().size(),
-                                         session.subject().quantity());
+    std::string line =
+        state.samples > 0
+            ? fmt::format("{} sample{}", state.samples, state.samples == 1 ? "" : "s")
+            : fmt::format("{} x {} pixels, {} bands, {}", session.about().width(), session.about().height(),
+                          session.about().wavelengths().size(), session.about().quantity());
     if (state.selected)
         line += fmt::format("   {}{}{}", state.selected->node.empty() ? "unnamed node" : state.selected->node,
                             state.selected->material.empty() ? "" : " · ", state.selected->material);
     line += session.edited == 0 ? "   look A" : "   look B";
     line += "   H: keys";
     ImGui::TextUnformatted(line.c_str());
+    if (!state.busy.empty()) ImGui::TextColored({0.6f, 0.8f, 1, 1}, "%s", state.busy.c_str());
     if (!state.remark.empty()) ImGui::TextDisabled("%s", state.remark.c_str());
     if (!state.message.empty()) {
         ImGui::PushTextWrapPos(width * 0.6f);
@@ -141,10 +142,11 @@ bool chooseName(const char* label, PanelState& state, const std::vector<std::str
 }
 
 void prepare(PanelState& state, Session& session) {
-    const std::filesystem::path file = session.subject().file();
+    const std::filesystem::path file = session.about().file();
     // A scene stays beside its files; what a cube gives goes to the current folder.
     state.saveAs =
-        ((session.scene() ? file.parent_path() : std::filesystem::path()) / file.stem()).string() + "-view";
+        ((session.aboutScene() ? file.parent_path() : std::filesystem::path()) / file.stem()).string() +
+        "-view";
 
     for (const LibraryEntry& entry : session.library().list()) {
         if (entry.name.starts_with("illuminants/")) state.illuminants.push_back(entry.name);
@@ -187,7 +189,7 @@ void drawMarks(const Session& session, const PanelState& state, float width, flo
 void drawPanels(Session& session, PanelState& state, float width, float height) {
     if (state.help) drawHelp(width, height);
     if (!state.visible) {
-        if (!state.message.empty()) drawStatus(session, state, width, height);
+        if (!state.message.empty() || !state.busy.empty()) drawStatus(session, state, width, height);
         return;
     }
     drawMarks(session, state, width, height);
@@ -199,8 +201,8 @@ void drawPanels(Session& session, PanelState& state, float width, float height) 
     ImGui::SetNextWindowSizeConstraints({column, 0}, {column, height - 2 * margin});
     ImGui::Begin("##look", nullptr, fixed | ImGuiWindowFlags_AlwaysAutoResize);
     drawLights(session, state);
-    if (session.scene()) drawMaterials(session, state);
-    if (session.cube()) drawBands(session);
+    if (session.aboutScene()) drawMaterials(session, state);
+    if (session.aboutCube()) drawBands(session);
     drawEye(session, state);
     if (session.picture == Picture::observer) drawComparison(session);
     drawSave(session, state);

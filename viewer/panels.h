@@ -23,6 +23,7 @@ struct PanelState {
     bool visible = true, help = false;
     std::string message;  ///< the last error, one line; empty: none
     std::string remark;   ///< what was done at last, one line
+    std::string busy;     ///< what is being done, one line
     std::optional<Wanted> wanted;
     std::string saveAs;              ///< name of files to write, without extension
     std::optional<Hit> selected;     ///< what was clicked

@@ -27,7 +27,7 @@ void drawHelp(float width, float height) {
          {"P", "pin the place under the pointer"},
          {"tab", "panels away, panels back"},
          {"H, F1", "these keys"},
-         {"escape", "away with this, and with an error's text"},
+         {"escape", "away with this, and with an error's text; stop writing a cube"},
          {"Q", "close"}}};
     ImGui::SetNextWindowPos({width / 2, height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowFocus();

@@ -88,7 +88,7 @@ double largest(const std::vector<double>& values) {
 }
 
 void drawSpectra(Session& session, PanelState& state, float width) {
-    const std::vector<double>& nm = session.subject().wavelengths().nm;
+    const std::vector<double>& nm = session.about().wavelengths().nm;
     double top = state.meter ? largest(state.meter->spectrum) : 0;
     for (const Pin& pin : session.pins)
         top = std::max(top, largest(pin.spectrum));

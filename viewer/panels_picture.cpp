@@ -44,8 +44,7 @@ void drawExposure(Session& session, PanelState& state) {
     if (ImGui::Button("auto", {-1, 0})) attempt(state, [&] { session.set("exposure=auto"); });
     const bool bands = session.picture != Picture::observer;
     if (bands)
-        ImGui::TextDisabled("%.4g %s shown as white", session.bands.white[0],
-                            session.subject().unit().c_str());
+        ImGui::TextDisabled("%.4g %s shown as white", session.bands.white[0], session.about().unit().c_str());
     else if (session.heldLuminance)
         ImGui::TextDisabled("%.4g cd/m² shown as white", *session.heldLuminance * std::exp2(-session.ev));
 }
@@ -80,7 +79,7 @@ void drawBands(Session& session) {
     int picture = static_cast<int>(session.picture);
     if (chooseOne("##picture", pictures, picture)) session.picture = static_cast<Picture>(picture);
     if (session.picture == Picture::observer) return;
-    const std::vector<double>& nm = session.subject().wavelengths().nm;
+    const std::vector<double>& nm = session.about().wavelengths().nm;
     const auto slider = [&](const char* label, size_t& band, const char* prefix) {
         int number = static_cast<int>(band);
         // The text of a slider is a format: it shows the wavelength instead of the number.
@@ -121,9 +120,9 @@ void drawComparison(Session& session) {
         ImGui::SetNextItemWidth(-1);
         if (ImGui::SliderFloat("##top", &top, 0.5f, 40, "yellow from ΔE %.1f"))
             session.differenceTop = static_cast<double>(top);
-        if (session.difference)
-            ImGui::Text("ΔE00 mean %.2f  95%% %.2f  max %.2f", session.difference->mean,
-                        session.difference->p95, session.difference->max);
+        if (session.painting().difference)
+            ImGui::Text("ΔE00 mean %.2f  95%% %.2f  max %.2f", session.painting().difference->mean,
+                        session.painting().difference->p95, session.painting().difference->max);
     }
 }
 
@@ -135,7 +134,7 @@ void drawSave(Session& session, PanelState& state) {
         if (ImGui::Button(label) && !state.saveAs.empty()) state.wanted = {what, state.saveAs + extension};
     };
     button("picture", Wanted::What::picture, ".png");
-    if (session.scene()) {
+    if (session.aboutScene()) {
         ImGui::SameLine();
         button("cube", Wanted::What::cube, ".exr");
         ImGui::SameLine();

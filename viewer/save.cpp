@@ -1,6 +1,7 @@
 #include "viewer/save.h"
 
 #include "base/files.h"
+#include "base/stopped.h"
 #include "base/text.h"
 #include "render/cube_info.h"
 #include "render/renderer.h"
@@ -70,7 +71,7 @@ void writeCamera(const SceneSubject& subject, const SceneSubject::Moved& now, Sc
 
 }  // namespace
 
-std::string sceneText(const SceneSubject& subject, const Look& look) {
+std::string sceneText(const SceneSubject& subject, const Look& look, const Pose& pose) {
     const Scene& scene = subject.scene();
     SceneText text(readFile(scene.file), scene.file);
     text.apply(subject.loadOptions().set);
@@ -84,11 +85,11 @@ std::string sceneText(const SceneSubject& subject, const Look& look) {
         requireOurs(subject, material.where, "material '" + material.name + "'");
         text.set(material.where, "diffuse", "reflectance", reflectance.text);
     }
-    if (const auto moved = subject.moved()) writeCamera(subject, *moved, text);
+    if (const auto moved = subject.moved(pose)) writeCamera(subject, *moved, text);
     return text.text();
 }
 
-void saveScene(const SceneSubject& subject, const Look& look, const fs::path& target) {
+void saveScene(const SceneSubject& subject, const Look& look, const Pose& pose, const fs::path& target) {
     if (target.extension() != ".xml")
         throw UsageError("'" + target.string() + "' must end in .xml to be a scene");
     const Scene& scene = subject.scene();
@@ -98,29 +99,42 @@ void saveScene(const SceneSubject& subject, const Look& look, const fs::path& ta
     if (folder(target) != folder(scene.file))
         throw UsageError("'" + target.string() +
                          "' must lie beside the scene, from where the names of its files count");
-    writeFile(target, sceneText(subject, look));
+    writeFile(target, sceneText(subject, look, pose));
 }
 
-void saveCube(const SceneSubject& subject, const Look& look, const fs::path& target, const Library& library,
-              const std::string& software, Notes& notes) {
+CubeOrder cubeOrder(const SceneSubject& subject, const Look& look, const Stand& stand, const fs::path& target,
+                    const std::string& software) {
     if (target.extension() != ".exr" && target.extension() != ".img")
         throw UsageError("'" + target.string() + "' must end in .exr or .img to be a cube");
-    const Scene scene = subject.changed(look);
-    RenderSettings settings = subject.settings();
-    settings.lightsApart = false;
-    settings.size = {subject.width(), subject.height()};
-    settings.samples = subject.finalSamples();
-    PassTextures passes(scene, library, subject.device(), settings, notes);
-    const Plan plan = makePlan(scene, settings, library, passes, notes);
-    const CubeInfo info = cubeInfoOf(scene, plan, subject.device(), software,
-                                     "spectrad view " + scene.file + " (as changed there)");
-    const auto writer = target.extension() == ".img"
-                            ? createEnvi(target, info)
-                            : createExr(target, info, {chooseCompression(info, {}, false, notes), false});
-    Renderer renderer(subject.device(), plan);
-    renderer.render([&](int, int rows, const float* bands, const float* preview) {
-        writer->write(rows, bands, preview);
-    });
+    CubeOrder order{subject.changed(look, stand), subject.settings(), subject.device().withOwnQueue(), target,
+                    software};
+    order.settings.lightsApart = false;
+    order.settings.size = {stand.width, stand.height};
+    order.settings.samples = subject.finalSamples();
+    return order;
+}
+
+void writeCube(const CubeOrder& order, const Library& library, const Progress& progress,
+               const std::stop_token& stop) {
+    Notes unsaid;  // what there is to say was said when the scene was opened
+    RenderSettings settings = order.settings;
+    settings.stop = stop;
+    PassTextures passes(order.scene, library, order.device, settings, unsaid);
+    const Plan plan = makePlan(order.scene, settings, library, passes, unsaid);
+    const CubeInfo info = cubeInfoOf(order.scene, plan, order.device, order.software,
+                                     "spectrad view " + order.scene.file + " (as changed there)");
+    const auto writer =
+        order.target.extension() == ".img"
+            ? createEnvi(order.target, info)
+            : createExr(order.target, info, {chooseCompression(info, {}, false, unsaid), false});
+    Renderer renderer(order.device, plan);
+    renderer.render(
+        [&](int, int rows, const float* bands, const float* preview) {
+            throwIfStopped(stop);
+            writer->write(rows, bands, preview);
+        },
+        progress);
+    throwIfStopped(stop);
     (void)writer->finish();
 }
 

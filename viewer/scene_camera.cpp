@@ -34,23 +34,23 @@ bool SceneSubject::followsCamera() const {
     return hasMirror(scene_) || (scene_.background && isPicture(scene_.background->texture));
 }
 
-void SceneSubject::setPose(const Pose& pose) {
-    pose_ = pose;
-    view_.worldToCamera = inverse(Affine::lookAt(pose.eye, pose.target, pose.up));
+void SceneSubject::stand(const Stand& stand) {
+    stand_.samples = stand.samples;
+    const bool sized = stand.width != view_.width || stand.height != view_.height;
+    if (!sized && same(stand.pose, stand_.pose)) return;
+    stand_ = stand;
+    const Pose& pose = stand.pose;
+    view_.worldToCamera =
+        same(pose, home_) ? homeView_ : inverse(Affine::lookAt(pose.eye, pose.target, pose.up));
+    view_.width = stand.width;
+    view_.height = stand.height;
     view_.orthographic = pose.orthographic;
     view_.pixelsPerSlope = pose.pixelsPerSlopeOverHeight * view_.height;
-    place();
+    stale_ = follows_;
+    live_->move(view_, scene_, flat_);
 }
 
-void SceneSubject::setSize(int width, int height) {
-    if (width == view_.width && height == view_.height) return;
-    view_.width = width;
-    view_.height = height;
-    view_.pixelsPerSlope = pose_.pixelsPerSlopeOverHeight * height;
-    place();
-}
-
-std::pair<Vec3, double> SceneSubject::bounds() const {
+void SceneSubject::measureBounds() {
     const World& world = live_->plan().world;
     constexpr double huge = 1e300;
     Vec3 low{huge, huge, huge}, high{-huge, -huge, -huge};
@@ -59,8 +59,10 @@ std::pair<Vec3, double> SceneSubject::bounds() const {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    if (low.x > high.x) return {{0, 0, 0}, 1};
-    return {(low + high) * 0.5, std::max(0.5 * length(high - low), 1e-9)};
+    if (low.x > high.x)
+        bounds_ = {{0, 0, 0}, 1};
+    else
+        bounds_ = {(low + high) * 0.5, std::max(0.5 * length(high - low), 1e-9)};
 }
 
 std::optional<Hit> SceneSubject::hitAt(int x, int y) {
@@ -102,41 +104,38 @@ std::optional<Hit> SceneSubject::hitAt(int x, int y) {
     return hit;
 }
 
-std::optional<SceneSubject::Moved> SceneSubject::moved() const {
-    const auto same = [](Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; };
-    if (same(pose_.eye, home_.eye) && same(pose_.target, home_.target) && same(pose_.up, home_.up) &&
-        pose_.pixelsPerSlopeOverHeight == home_.pixelsPerSlopeOverHeight)
-        return std::nullopt;
+std::optional<SceneSubject::Moved> SceneSubject::moved(const Pose& pose) const {
+    if (same(pose, home_)) return std::nullopt;
     const Affine toNode = inverse(cameraNode_);
     return Moved{
-        camera_, toNode.point(pose_.eye), toNode.point(pose_.target), normalized(toNode.direction(pose_.up)),
-        scene_.cameras[camera_].viewHeight * home_.pixelsPerSlopeOverHeight / pose_.pixelsPerSlopeOverHeight};
+        camera_, toNode.point(pose.eye), toNode.point(pose.target), normalized(toNode.direction(pose.up)),
+        scene_.cameras[camera_].viewHeight * home_.pixelsPerSlopeOverHeight / pose.pixelsPerSlopeOverHeight};
 }
 
-void SceneSubject::placeCamera(Scene& scene) const {
+void SceneSubject::placeCamera(Scene& scene, const Stand& stand) const {
     if (hasMirror(scene_)) {
-        scene.cameras[camera_].width = view_.width;
-        scene.cameras[camera_].height = view_.height;
+        scene.cameras[camera_].width = stand.width;
+        scene.cameras[camera_].height = stand.height;
     }
-    const auto now = moved();
+    const auto now = moved(stand.pose);
     if (!now) return;
     scene.cameras[now->camera].toNode = Affine::lookAt(now->eye, now->target, now->up);
     scene.cameras[now->camera].viewHeight = now->viewHeight;
 }
 
-Scene SceneSubject::changed(const Look& look) const {
+Scene SceneSubject::changed(const Look& look, const Stand& stand) const {
     Scene scene = sceneOf(look);
-    placeCamera(scene);
+    placeCamera(scene, stand);
     return scene;
 }
 
 void SceneSubject::follow() {
     if (!stale_ || samples() < finalSamples_) return;
-    stale_ = false;
     Scene moved = scene_;
-    placeCamera(moved);
+    placeCamera(moved, stand_);
     RenderSettings settings = settings_;
     settings.size = {view_.width, view_.height};
+    settings.stop = stop();
     Notes unsaid;
     PassTextures passes(moved, library_, device_, settings, unsaid);
     Plan made = makePlan(moved, settings, library_, passes, unsaid);
@@ -144,6 +143,7 @@ void SceneSubject::follow() {
     live_ = std::make_unique<LiveImage>(device_, std::move(made));
     tables_.clear();
     live_->move(view_, scene_, flat_);
+    stale_ = false;
 }
 
 }  // namespace spectrad::view

@@ -1,7 +1,6 @@
 #include "viewer/scene_subject.h"
 
 #include "render/texels.h"
-#include "spectrum/projection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,8 +27,8 @@ SceneSubject::SceneSubject(const std::filesystem::path& file, const LoadOptions&
                            const RenderSettings& settings, const Device& device, const Library& library,
                            Notes& notes)
     : library_(library),
-      device_(device),
-      notes_(notes),
+      device_(device.withOwnQueue()),
+      reader_(device.withOwnQueue()),
       load_(load),
       settings_(settings),
       scene_(loadScene(file, library, load, notes)) {
@@ -39,13 +38,13 @@ SceneSubject::SceneSubject(const std::filesystem::path& file, const LoadOptions&
                          "pass '" + shot.pass->name + "' shows another file: open that one to view it");
     flat_ = shot.pass ? flatten(scene_, *shot.pass) : flatten(scene_);
     settings_.lightsApart = flat_.lights.size() <= mostLightsApart;
-    PassTextures passes(scene_, library_, device_, settings_, notes_);
+    PassTextures passes(scene_, library_, device_, settings_, notes);
     const std::vector<GraphNode>& graph = passes.graph();
     passes_ = graph.size() > 1;
     pictures_ = std::any_of(graph.begin(), graph.end() - 1, [](const GraphNode& node) {
         return !node.shot.pass || node.shot.pass->as != PassKind::reflectance;
     });
-    Plan made = makePlan(scene_, settings_, library_, passes, notes_);
+    Plan made = makePlan(scene_, settings_, library_, passes, notes);
     fetchTexels(made.world);
     if (made.as != PassKind::radiance)
         throw InputError("pass '" + made.passName + "' is no radiance: view shows what an eye sees");
@@ -67,19 +66,24 @@ SceneSubject::SceneSubject(const std::filesystem::path& file, const LoadOptions&
             break;
         }
     finalSamples_ = made.samples;
+    wavelengths_ = made.wavelengths;
     view_ = made.view;
+    homeView_ = view_.worldToCamera;
+    width_ = view_.width;
+    height_ = view_.height;
     live_ = std::make_unique<LiveImage>(device_, std::move(made));
+    measureBounds();
 
     const Affine place = inverse(view_.worldToCamera);
-    pose_.eye = place.point({0, 0, 0});
-    pose_.up = place.direction({0, 1, 0});
-    pose_.orthographic = view_.orthographic;
-    pose_.pixelsPerSlopeOverHeight = view_.pixelsPerSlope / view_.height;
-    const auto [middle, radius] = bounds();
+    home_.eye = place.point({0, 0, 0});
+    home_.up = place.direction({0, 1, 0});
+    home_.orthographic = view_.orthographic;
+    home_.pixelsPerSlopeOverHeight = view_.pixelsPerSlope / view_.height;
+    const auto& [middle, radius] = bounds_;
     const Vec3 forward = place.direction({0, 0, -1});
-    const double distance = std::max(dot(middle - pose_.eye, forward), 0.05 * radius);
-    pose_.target = pose_.eye + forward * (distance > 0 ? distance : 1);
-    home_ = pose_;
+    const double distance = std::max(dot(middle - home_.eye, forward), 0.05 * radius);
+    home_.target = home_.eye + forward * (distance > 0 ? distance : 1);
+    stand_ = {home_, width_, height_, std::nullopt};
     follows_ = followsCamera();
 }
 
@@ -92,11 +96,6 @@ Look SceneSubject::firstLook() const {
     }
     look.eye = std::make_shared<const Eye>(standardEye(library_));
     return look;
-}
-
-void SceneSubject::place() {
-    stale_ = follows_;
-    live_->move(view_, scene_, flat_);
 }
 
 Scene SceneSubject::sceneOf(const Look& look) const {
@@ -117,7 +116,7 @@ Scene SceneSubject::sceneOf(const Look& look) const {
     return changed;
 }
 
-std::vector<LightGroup> SceneSubject::groupsOf(const Scene& changed) const {
+std::vector<LightGroup> SceneSubject::groupsOf(const Scene& changed) {
     std::vector<sd_light> lights;
     return groupLights(
         changed, flat_, view_, standardObserver(library_), [](const Emitter& emitter) { return emitter; },
@@ -127,6 +126,7 @@ std::vector<LightGroup> SceneSubject::groupsOf(const Scene& changed) const {
 void SceneSubject::plan(Table& table, const Look& look, const Scene& changed) {
     RenderSettings settings = settings_;
     settings.size = {view_.width, view_.height};
+    settings.stop = stop();
     Notes unsaid;  // what there is to say was said when the scene was opened
     PassTextures passes(changed, library_, device_, settings, unsaid);
     settings.geometry = false;  // of the picture alone: passes want theirs
@@ -160,12 +160,12 @@ void SceneSubject::plan(Table& table, const Look& look, const Scene& changed) {
     live_->move(view_, scene_, flat_);
 }
 
-bool SceneSubject::apart() const {
+bool SceneSubject::apart() {
     return settings_.lightsApart || apart_.size() <= mostLightsApart;
 }
 
 Scene SceneSubject::grouped(const Look& look) {
-    Scene scene = changed(look);
+    Scene scene = changed(look, stand_);
     if (settings_.lightsApart) return scene;
     const size_t before = apart_.size();
     for (size_t i = 0; i < look.lights.size() && i < scene.lights.size(); ++i) {
@@ -181,35 +181,39 @@ Scene SceneSubject::grouped(const Look& look) {
     return scene;
 }
 
-const SceneSubject::Table& SceneSubject::table(const Look& look) {
+std::shared_ptr<const SceneSubject::Table> SceneSubject::table(const Look& look) {
     follow();
     std::map<Index, std::string> worn;
     for (const auto& [material, reflectance] : look.reflectances)
         worn[material] = reflectance.text;
     std::vector<double> amounts;
-    for (const LightSetting& light : look.lights)
+    std::vector<std::string> lamps;
+    for (const LightSetting& light : look.lights) {
         amounts.push_back(light.on ? light.times : 0);
+        lamps.push_back(light.emitter.spectrum.text);
+    }
     const auto known = std::find_if(tables_.begin(), tables_.end(),
-                                    [&](const Table& t) { return t.version == look.version; });
+                                    [&](const auto& t) { return t->version == look.version; });
     if (known != tables_.end()) return *known;
 
     const Scene changed = grouped(look);
     // The nearest there is: the same materials, so that only lights and eye may differ.
     const auto near = std::find_if(tables_.rbegin(), tables_.rend(),
-                                   [&](const Table& t) { return t.reflectances == worn; });
+                                   [&](const auto& t) { return t->reflectances == worn; });
     Table made;
     bool fresh = near == tables_.rend() || !apart();
     if (!fresh) {
-        made = *near;
+        made = **near;
         const std::vector<LightGroup> groups = groupsOf(changed);
-        fresh = passes_ && near->amounts != amounts;
+        // Lamps may shine in other passes alone.
+        fresh = (passes_ && (*near)->amounts != amounts) || (pictures_ && (*near)->lamps != lamps);
         fresh = fresh || groups.size() != made.groups.size();
         for (size_t t = 0; t < made.recipes.size() && !fresh; ++t) {
             const TermRecipe& recipe = made.recipes[t];
             const bool lit = recipe.group < groups.size();
             const bool otherLight = lit && (groups[recipe.group].text != made.groups[recipe.group].text ||
                                             groups[recipe.group].factor != made.groups[recipe.group].factor);
-            if (recipe.group == TermRecipe::unknown || (pictures_ && otherLight))
+            if (recipe.group == TermRecipe::unknown)
                 fresh = true;
             else if (otherLight || made.eye != look.eye) {
                 const std::array<float, 3> colour =
@@ -223,6 +227,7 @@ const SceneSubject::Table& SceneSubject::table(const Look& look) {
     made.version = look.version;
     made.reflectances = worn;
     made.amounts = amounts;
+    made.lamps = lamps;
     made.eye = look.eye;
     if (fresh) {
         made.groups = groupsOf(changed);
@@ -230,12 +235,12 @@ const SceneSubject::Table& SceneSubject::table(const Look& look) {
     }
     constexpr size_t kept = 8;
     if (tables_.size() >= kept) tables_.erase(tables_.begin());
-    tables_.push_back(std::move(made));
+    tables_.push_back(std::make_shared<const Table>(std::move(made)));
     return tables_.back();
 }
 
 void SceneSubject::resolve() {
-    live_->resolve(samples());
+    live_->resolve(samples(), stop());
 }
 
 void SceneSubject::showColours(const std::vector<float>& colours, const Shown& shown, Codes& codes) {
@@ -248,13 +253,13 @@ void SceneSubject::showColours(const std::vector<float>& colours, const Shown& s
 }
 
 void SceneSubject::show(const Look& look, const Shown& shown, Codes& codes) {
-    const Table& terms = table(look);
-    showColours(terms.colours, shown, codes);
+    showColours(table(look)->colours, shown, codes);
 }
 
 void SceneSubject::showMixed(const Look& a, const Look& b, double mix, const Shown& shown, Codes& codes) {
-    std::vector<float> colours = table(a).colours;
-    const std::vector<float>& other = table(b).colours;
+    std::vector<float> colours = table(a)->colours;
+    const std::shared_ptr<const Table> with = table(b);
+    const std::vector<float>& other = with->colours;
     for (size_t i = 0; i < colours.size() && i < other.size(); ++i)
         colours[i] = static_cast<float>(
             std::lerp(static_cast<double>(colours[i]), static_cast<double>(other[i]), mix));
@@ -262,47 +267,15 @@ void SceneSubject::showMixed(const Look& a, const Look& b, double mix, const Sho
 }
 
 ChannelImage SceneSubject::xyz(const Look& look) {
-    const Table& terms = table(look);
+    const std::shared_ptr<const Table> terms = table(look);
     resolve();
-    return live_->xyz(terms.colours);
-}
-
-std::vector<double> SceneSubject::spectrumAt(int x, int y, const Look& look) {
-    const Table& terms = table(look);
-    resolve();
-    const Wavelengths& grid = wavelengths();
-    std::vector<float> sum(grid.size(), 0.0f);
-    const auto seen = live_->termsAt(x, y);
-    if (seen.empty() && (x < 0 || y < 0 || x >= width() || y >= height())) return {};
-    for (const auto& [term, g] : seen) {
-        const TermRecipe& recipe = terms.recipes.at(term);
-        std::vector<float> bands;
-        if (recipe.group == TermRecipe::unknown) {
-            const auto from = terms.spectra.begin() + static_cast<std::ptrdiff_t>(term * grid.size());
-            bands.assign(from, from + static_cast<std::ptrdiff_t>(grid.size()));
-        } else {
-            std::vector<const Curve*> product;
-            double factor = recipe.factor;
-            if (recipe.group != TermRecipe::none) {
-                product.push_back(&terms.groups.at(recipe.group).spectrum);
-                factor *= terms.groups[recipe.group].factor;
-            }
-            for (const Curve& curve : recipe.response)
-                product.push_back(&curve);
-            for (double value : project(grid, product))
-                bands.push_back(static_cast<float>(value * factor));
-        }
-        // The same sums as kernels/expand.cl.
-        for (size_t band = 0; band < sum.size(); ++band)
-            sum[band] = std::fma(bands[band], g, sum[band]);
-    }
-    return {sum.begin(), sum.end()};
+    return live_->xyz(terms->colours);
 }
 
 White SceneSubject::white(const Look& look) {
-    const Table& terms = table(look);
-    if (!terms.groups.empty()) {
-        const LightGroup& first = terms.groups.front();
+    const std::shared_ptr<const Table> terms = table(look);
+    if (!terms->groups.empty()) {
+        const LightGroup& first = terms->groups.front();
         const std::array<const Curve*, 1> light{&first.spectrum};
         const Triple xyz = seenXyz(*look.eye, light);
         if (xyz[1] > 0) return {plainName(first.text), {xyz[0] / xyz[1], 1, xyz[2] / xyz[1]}, false};
@@ -314,10 +287,10 @@ White SceneSubject::white(const Look& look) {
 }
 
 double SceneSubject::whiteAmount(const Look& look) {
-    const Table& terms = table(look);
-    if (terms.groups.empty()) return 1;
-    const std::array<const Curve*, 1> light{&terms.groups.front().spectrum};
-    return terms.groups.front().factor * seenXyz(*look.eye, light)[1];
+    const std::shared_ptr<const Table> terms = table(look);
+    if (terms->groups.empty()) return 1;
+    const std::array<const Curve*, 1> light{&terms->groups.front().spectrum};
+    return terms->groups.front().factor * seenXyz(*look.eye, light)[1];
 }
 
 }  // namespace spectrad::view

@@ -192,6 +192,19 @@ const std::vector<std::pair<std::string, Reader>>& readers() {
              action.kind = Kind::wait;
              action.x = line.number(1);
          }},
+        {"jobs",
+         [](const Line& line, Action& action) {
+             line.need(1, 1, "jobs wait|beside");
+             if (line.words[1] != "wait" && line.words[1] != "beside")
+                 line.refuse("'" + line.words[1] + "' is no way of jobs (allowed: wait, beside)");
+             action.kind = Kind::jobs;
+             action.x = line.words[1] == "wait" ? 1 : 0;
+         }},
+        {"finish",
+         [](const Line& line, Action& action) {
+             line.need(0, 0, "finish");
+             action.kind = Kind::finish;
+         }},
         {"close",
          [](const Line& line, Action& action) {
              line.need(0, 0, "close");

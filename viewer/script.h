@@ -24,6 +24,8 @@ struct Action {
         pin,          ///< x, y
         pins,         ///< text: CSV
         wait,         ///< x: frames
+        jobs,         ///< x: 1, frames wait for them; 0, they go on beside
+        finish,       ///< until all jobs are done
         close
     } kind = Kind::events;
     std::vector<Event> events;

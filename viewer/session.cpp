@@ -1,84 +1,34 @@
 #include "viewer/session.h"
 
-#include "base/text.h"
+#include "viewer/carry.h"
 #include "viewer/save.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace spectrad::view {
 
-namespace {
-
-bool sameAmount(const Emitter& a, const Emitter& b) {
-    const auto value = [](const Emitter& e) { return e.amount ? e.amount->value : e.scale; };
-    return a.amount.has_value() == b.amount.has_value() &&
-           (!a.amount || (a.amount->unit == b.amount->unit && a.amount->over == b.amount->over)) &&
-           value(a) == value(b);
-}
-
-bool samePlace(const Pose& a, const Pose& b) {
-    const auto near = [](Vec3 p, Vec3 q) { return p.x == q.x && p.y == q.y && p.z == q.z; };
-    const Vec3 aheadA = normalized(a.target - a.eye), aheadB = normalized(b.target - b.eye);
-    constexpr double tolerance = 1e-9;  // the target's distance depends on the geometry
-    return near(a.eye, b.eye) && near(a.up, b.up) && length(aheadA - aheadB) < tolerance &&
-           a.pixelsPerSlopeOverHeight == b.pixelsPerSlopeOverHeight && a.orthographic == b.orthographic;
-}
-
-const Spectrum* reflectanceOf(const Material& material) {
-    return material.diffuse && material.diffuse->reflectance ? &*material.diffuse->reflectance : nullptr;
-}
-
-}  // namespace
-
 Session::Session(Opener open, const Library& library, Notes& notes, bool restricted)
     : open_(std::move(open)),
-      subject_(open_()),
       library_(library),
+      restricted_(restricted),
+      painter_(std::make_unique<Painter>(open_(notes), library_, restricted_)),
       notes_(notes),
-      resolver_(library_, subject_->file().parent_path(), restricted, notes_),
-      standard_(standardObserver(library_)),
-      looks_{subject_->firstLook(), subject_->firstLook()} {
-    for (Look& look : looks_)
+      resolver_(library_, about().file().parent_path(), restricted_, notes_),
+      standard_(standardObserver(library_)) {
+    looks = {about().firstLook(), about().firstLook()};
+    for (Look& look : looks)
         touch(look);
+    if (const SceneSubject* scene = aboutScene())
+        stand = {scene->home(), scene->width(), scene->height(), std::nullopt};
     watched_.watch(files());
-    const size_t last = subject_->wavelengths().size() - 1;
+    const size_t last = about().wavelengths().size() - 1;
     bands.bands = {last * 3 / 4, last / 2, last / 4};
 }
 
-Look Session::carried(const Look& old, const Subject& fresh) const {
-    Look made = fresh.firstLook();
-    const Look before = subject_->firstLook();
-    made.eye = old.eye;
-    for (LightSetting& light : made.lights)
-        for (size_t i = 0; i < before.lights.size(); ++i) {
-            const LightSetting &was = before.lights[i], &now = old.lights[i];
-            if (was.name != light.name) continue;
-            const bool sameSpectrum = was.emitter.spectrum.text == light.emitter.spectrum.text;
-            if (sameAmount(was.emitter, light.emitter)) {
-                light.times = now.times;
-                light.on = now.on;
-            }
-            if (sameSpectrum && now.emitter.spectrum.text != was.emitter.spectrum.text)
-                light.emitter.spectrum = resolver_.resolve(now.emitter.spectrum.text, Role::light, {});
-        }
-    const auto* scene = dynamic_cast<const SceneSubject*>(&fresh);
-    if (!scene || !this->scene()) return made;
-    const std::vector<Material>&then = this->scene()->scene().materials, &now = scene->scene().materials;
-    for (const auto& [number, reflectance] : old.reflectances)
-        for (Index m = 0; m < now.size(); ++m) {
-            const Spectrum *was = reflectanceOf(then[number]), *is = reflectanceOf(now[m]);
-            if (now[m].name == then[number].name && was && is && was->text == is->text)
-                made.reflectances[m] = resolver_.resolve(reflectance.text, Role::reflectance, {});
-        }
-    return made;
-}
-
 std::vector<std::filesystem::path> Session::files() const {
-    std::vector<std::filesystem::path> all = subject_->files();
-    for (const Look& look : looks_) {
+    std::vector<std::filesystem::path> all = about().files();
+    for (const Look& look : looks) {
         for (const LightSetting& light : look.lights)
             all.insert(all.end(), light.emitter.spectrum.files.begin(), light.emitter.spectrum.files.end());
         for (const auto& [material, reflectance] : look.reflectances)
@@ -87,186 +37,174 @@ std::vector<std::filesystem::path> Session::files() const {
     return all;
 }
 
+Painter& Session::atHand() {
+    if (paints_.running()) takePainting();
+    painter_->subject().heed({});
+    painter_->subject().stand(stand);
+    return *painter_;
+}
+
+void Session::check(const Look& look) {
+    if (waits) (void)subject().whiteAmount(look);
+}
+
+std::string Session::state(const Wish& wish, std::uint64_t changes) const {
+    return wish.key() + " " + std::to_string(changes);
+}
+
+/// Looks that cannot be painted go back to those that could.
+void Session::takeBack() {
+    if (painting_.left.empty()) return;
+    looks = painting_.wish.looks;
+    watched_.watch(files());
+}
+
+void Session::show(Painting&& painting) {
+    const Wish& answered = painting.wish;
+    const bool stillAsked = looks[0].version == answered.looks[0].version && white == answered.white &&
+                            automatic == answered.automatic;
+    if (!heldLuminance && stillAsked) heldLuminance = answered.heldLuminance;
+    bands.white = answered.bands.white;
+    spare_ = std::exchange(painting_, std::move(painting));
+    painted_ = state(painting_.wish, changesPainted_);
+    news_.picture = true;
+}
+
+void Session::takePainting() {
+    try {
+        if (const std::optional<Painted> made = paints_.take()) show(std::move(**made));
+    } catch (const Error& error) {
+        failed_ = beingPainted_;
+        news_.problem = error.what();
+        if (failed_ == state(*this, changes_)) takeBack();
+    }
+}
+
+bool Session::begin() {
+    const std::string wanted = state(*this, changes_);
+    if (paints_.running()) {
+        // One sample a pixel is what a hand that moves waits for; what takes longer makes room for its
+        // successor.
+        if (wanted != beingPainted_ && !hasty_) paints_.stop();
+        return false;
+    }
+    if (wanted == painted_ || wanted == failed_) return false;
+    beingPainted_ = wanted;
+    changesPainted_ = changes_;
+    if (waits) {
+        try {
+            painter_->paint(*this, spare_);
+            show(std::move(spare_));
+        } catch (const Error&) {
+            failed_ = wanted;
+            takeBack();
+            throw;
+        }
+        news_.picture = false;
+        return true;
+    }
+    hasty_ = stand.samples == 1;
+    auto target = std::make_shared<Painting>(std::move(spare_));
+    paints_.start([painter = painter_.get(), wish = Wish(*this), target](const std::stop_token& stop) {
+        painter->paint(wish, *target, stop);
+        return target;
+    });
+    return false;
+}
+
+bool Session::settled() const {
+    if (paints_.running() || opens_.running()) return false;
+    const std::string now = state(*this, changes_);
+    return now == painted_ || now == failed_;
+}
+
+Job<Session::Opened>::Work Session::opening() {
+    // The old subject stays until the new one is taken over: what never changes of it can be asked.
+    return [open = open_, &library = library_, restricted = restricted_, before = &about(),
+            looks = looks](const std::stop_token& stop) {
+        Notes unsaid;
+        auto fresh = std::make_unique<Painter>(open(unsaid), library, restricted);
+        throwIfStopped(stop);
+        const SpectrumResolver resolver(library, before->file().parent_path(), restricted, unsaid);
+        std::uint64_t version = ~std::uint64_t{0};
+        for (const Look& look : looks) {
+            Look tried = carried(look, *before, fresh->about(), resolver);
+            tried.version = version--;
+            (void)fresh->subject().whiteAmount(tried);
+        }
+        return fresh;
+    };
+}
+
+void Session::takeOpened(Opened fresh) {
+    std::array<Look, 2> now{carried(looks[0], about(), fresh->about(), resolver_),
+                            carried(looks[1], about(), fresh->about(), resolver_)};
+    stand = carried(stand, about(), fresh->about());
+    for (Look& look : now)
+        touch(look);
+    looks = std::move(now);
+    painter_ = std::move(fresh);
+    problem.clear();
+    watched_.watch(files());
+    const size_t count = about().wavelengths().size();
+    if (!pins.empty() && pins.front().spectrum.size() != count) pins.clear();
+    for (size_t& band : bands.bands)
+        band = std::min(band, count - 1);
+    invalidate();
+}
+
 bool Session::reload() {
     if (!watched_.changed()) return false;
     try {
-        std::unique_ptr<Subject> fresh = open_();
-        std::array<Look, 2> looks{carried(looks_[0], *fresh), carried(looks_[1], *fresh)};
-        auto* opened = dynamic_cast<SceneSubject*>(fresh.get());
-        if (opened && scene()) {
-            if (samePlace(opened->home(), scene()->home())) opened->setPose(scene()->pose());
-            opened->setSize(scene()->width(), scene()->height());
-        }
-        for (Look& look : looks) {
-            touch(look);
-            (void)fresh->whiteAmount(look);
-        }
-        subject_ = std::move(fresh);
-        looks_ = std::move(looks);
-        problem.clear();
-        watched_.watch(files());
-        if (!pins.empty() && pins.front().spectrum.size() != subject_->wavelengths().size()) pins.clear();
-        for (size_t& band : bands.bands)
-            band = std::min(band, subject_->wavelengths().size() - 1);
-        invalidate();
+        (void)atHand();
+        takeOpened(opening()({}));
     } catch (const Error& error) {
         problem = error.what();
     }
     return true;
 }
 
-White Session::whiteOf(const Look& look) {
-    if (white.empty()) return subject().white(look);
-    return whiteFor(white, look.eye->detector, look.eye->matrix, resolver_, {});
-}
-
-Display Session::displayFor(const Look& look) const {
-    if (!spectralDisplay_) return display_;
-    return spectralDisplay_->seenBy(look.eye->detector.tristimulus ? look.eye->detector : standard_);
-}
-
-Rendering Session::rendering(const Look& look) {
-    Rendering made;
-    made.base.adaptation = adaptation;
-    made.base.white = whiteOf(look);
-    made.base.exposure = {ev, automatic_};
-    made.base.display = displayFor(look);
-    made.degree = degree;
-    made.tone = tone;
-    made.gamut = mapping;
-    return made;
-}
-
-void Session::autoExpose() {
-    DevelopSettings made = rendering(looks_[0]).base;
-    made.exposure.ev = 0;
-    heldLuminance = displayWhiteLuminance(subject().xyz(looks_[0]), made);
-}
-
-Shown Session::shownBy(const Rendering& how) {
-    return {renderingMatrix(how, *heldLuminance * std::exp2(-ev)), how.base.display, how.tone, how.gamut};
-}
-
-Shown Session::shown(const Look& look) {
-    if (!heldLuminance) autoExpose();
-    return shownBy(rendering(look));
-}
-
-/// A mixture's white is the mixture of the whites, each as strong as its light.
-Rendering Session::mixedRendering() {
-    Rendering made = rendering(looks_[0]);
-    if (white.empty()) {
-        const double a = (1 - mix) * subject().whiteAmount(looks_[0]),
-                     b = mix * subject().whiteAmount(looks_[1]);
-        const Triple whiteA = subject().white(looks_[0]).xyz, whiteB = subject().white(looks_[1]).xyz;
-        if (a + b > 0)
-            for (size_t c = 0; c < 3; ++c)
-                made.base.white.xyz[c] = (a * whiteA[c] + b * whiteB[c]) / (a + b);
+News Session::take() {
+    if (paints_.done()) takePainting();
+    if (saves_.done()) {
+        try {
+            const std::optional<std::string> file = saves_.take();
+            news_.remark = file ? "wrote " + *file : "stopped: nothing is left of " + saving_;
+        } catch (const Error& error) {
+            news_.problem = error.what();
+            failedSave_ = std::current_exception();
+        }
     }
-    return made;
-}
-
-void Session::drawDifference(Codes& codes) {
-    const White seenAgainst = withLuminance(whiteOf(looks_[0]), *heldLuminance);
-    difference = colourDifference(subject().xyz(looks_[0]), subject().xyz(looks_[1]), seenAgainst.xyz);
-    const std::vector<std::uint8_t> rgb = falseColours(difference->map, differenceTop);
-    codes.resize(difference->map.size());
-    for (size_t i = 0; i < codes.size(); ++i)
-        codes[i] = 0xff000000u | std::uint32_t{rgb[3 * i + 2]} << 16 | std::uint32_t{rgb[3 * i + 1]} << 8 |
-                   rgb[3 * i];
-    difference->map.clear();
-}
-
-bool Session::refresh(Codes& left, Codes& right) {
-    const bool ofBands = cube() && picture != Picture::observer;
-    if (!ofBands && !heldLuminance) autoExpose();
-    const bool two = mode != Mode::single;
-    const std::string state = fmt::format(
-        "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", changes_, static_cast<int>(mode),
-        looks_[0].version, two ? looks_[1].version : 0, static_cast<int>(adaptation), white, display,
-        heldLuminance.value_or(0), ev, mode == Mode::mixture ? mix : 0,
-        mode == Mode::difference ? differenceTop : 0, degree, static_cast<int>(tone),
-        static_cast<int>(mapping), static_cast<int>(picture), bands.bands[0], bands.bands[1], bands.bands[2]);
-    if (state == shownState_) return false;
-    right.clear();
-    difference.reset();
-    if (ofBands) {
-        BandPicture drawn = bands;
-        if (picture == Picture::band) drawn.bands.fill(bands.bands[0]);
-        drawn.ev = ev;
-        drawn.display = displayFor(looks_[0]);
-        cube()->showBands(drawn, left);
-        bands.white = drawn.white;
-        shownState_ = state;
-        return true;
+    if (waits && !opens_.running()) {
+        news_.opened = reload();
+    } else {
+        changedAgain_ = watched_.changed() || changedAgain_;
+        if (changedAgain_ && !opens_.running()) {
+            changedAgain_ = false;
+            opens_.start(opening());
+        }
+        // What is being painted of the old subject is of no use any more.
+        if (opens_.done() && paints_.running()) paints_.stop();
+        if (opens_.done() && !paints_.running()) {
+            try {
+                if (std::optional<Opened> fresh = opens_.take()) takeOpened(std::move(*fresh));
+            } catch (const Error& error) {
+                problem = error.what();
+            }
+            news_.opened = true;
+        }
     }
-    switch (mode) {
-        case Mode::single:
-            subject().show(looks_[0], shown(looks_[0]), left);
-            break;
-        case Mode::split:
-            subject().show(looks_[0], shown(looks_[0]), left);
-            subject().show(looks_[1], shown(looks_[1]), right);
-            break;
-        case Mode::mixture:
-            subject().showMixed(looks_[0], looks_[1], mix, shownBy(mixedRendering()), left);
-            break;
-        case Mode::difference:
-            drawDifference(left);
-            break;
-    }
-    shownState_ = state;
-    return true;
+    if (news_.opened) news_.problem = problem;
+    return std::exchange(news_, {});
 }
 
-void Session::saveScene(const std::filesystem::path& target) {
-    if (!scene()) throw UsageError("a cube is no scene to be saved");
-    view::saveScene(*scene(), look(edited), target);
-}
-
-void Session::saveCube(const std::filesystem::path& target) {
-    if (!scene()) throw UsageError("a cube is there already");
-    view::saveCube(*scene(), look(edited), target, library_, software, notes_);
-}
-
-Pin Session::measured(int x, int y, const Look& look) {
-    Pin pin{x, y, subject().spectrumAt(x, y, look), {}};
-    if (pin.spectrum.empty()) return pin;
-    const DetectorWeights weights = subject().weights(look);
-    std::vector<double> channels;
-    for (const std::vector<double>& weight : weights.weights) {
-        double sum = 0;
-        for (size_t band = 0; band < pin.spectrum.size(); ++band)
-            sum += weight[band] * pin.spectrum[band];
-        channels.push_back(sum);
-    }
-    pin.xyz = toXyz(look.eye->matrix, channels);
-    return pin;
-}
-
-std::string Session::pinsAsCsv() {
-    const std::string unit = subject().unit(), quantity = subject().quantity();
-    std::string text = fmt::format("# quantity: {}\n# unit: {}\n", quantity, unit.empty() ? "1" : unit);
-    for (const Pin& pin : pins)
-        text += fmt::format("# at {},{}: XYZ {} {} {}\n", pin.x, pin.y, rounded(pin.xyz[0], 6),
-                            rounded(pin.xyz[1], 6), rounded(pin.xyz[2], 6));
-    const std::string column = quantity == "radiance"     ? "radiance_W_m2_sr_nm"
-                               : quantity == "irradiance" ? "irradiance_W_m2_nm"
-                                                          : quantity;
-    text += "wavelength_nm";
-    for (const Pin& pin : pins)
-        text += fmt::format(",{} at {} {}", column, pin.x, pin.y);
-    text += '\n';
-    const std::vector<double>& nm = subject().wavelengths().nm;
-    constexpr int floatDigits = 9;  // enough to read the same float back
-    for (size_t band = 0; band < nm.size(); ++band) {
-        text += shortest(nm[band]);
-        for (const Pin& pin : pins)
-            text +=
-                "," + (band < pin.spectrum.size() ? rounded(pin.spectrum[band], floatDigits) : std::string());
-        text += '\n';
-    }
-    return text;
+void Session::await(double seconds) const {
+    if (paints_.running())
+        (void)paints_.waited(seconds);
+    else if (opens_.running())
+        (void)opens_.waited(seconds);
+    else
+        (void)saves_.waited(seconds);
 }
 
 }  // namespace spectrad::view

@@ -50,7 +50,7 @@ void Session::setLightSpectrum(size_t light, const std::string& spectrum) {
     changed.lights.at(light).emitter.spectrum = std::move(resolved);
     touch(changed);
     // What cannot shine, such as an amount of a spectrum without light, is found out before it is kept.
-    (void)subject().whiteAmount(changed);
+    check(changed);
     look(edited) = std::move(changed);
     watched_.watch(files());
 }
@@ -59,7 +59,7 @@ void Session::setReflectance(Index material, const std::string& spectrum) {
     Look changed = look(edited);
     changed.reflectances[material] = resolver_.resolve(spectrum, Role::reflectance, {});
     touch(changed);
-    (void)subject().whiteAmount(changed);
+    check(changed);
     look(edited) = std::move(changed);
     watched_.watch(files());
 }
@@ -82,7 +82,7 @@ void Session::setOfLook(Look& look, const std::string& name, const std::string& 
         return;
     }
     const std::vector<Material> none;
-    const std::vector<Material>& materials = scene() ? scene()->scene().materials : none;
+    const std::vector<Material>& materials = aboutScene() ? aboutScene()->scene().materials : none;
     for (Index m = 0; m < materials.size(); ++m) {
         names.push_back(materials[m].name);
         if (materials[m].name != name || name.empty()) continue;
@@ -93,17 +93,19 @@ void Session::setOfLook(Look& look, const std::string& name, const std::string& 
         setReflectance(m, value);
         return;
     }
-    throw UsageError(fmt::format("{} has no light{} '{}'{}", scene() ? "the scene" : "the cube",
-                                 scene() ? " or material" : "", name, didYouMean(name, names)));
+    throw UsageError(fmt::format("{} has no light{} '{}'{}", aboutScene() ? "the scene" : "the cube",
+                                 aboutScene() ? " or material" : "", name, didYouMean(name, names)));
 }
 
 void Session::setWhite(const std::string& text) {
     const std::string before = std::exchange(white, text);
     try {
-        // A white with a luminance says how bright the picture is shown.
-        if (whiteOf(look(edited)).hasLuminance) {
+        // A white with a luminance says how bright the picture is shown; a scene's own lights have none.
+        const Eye& eye = *look(edited).eye;
+        if (text.empty() ? !aboutScene()
+                         : whiteFor(text, eye.detector, eye.matrix, resolver_, {}).hasLuminance) {
             heldLuminance.reset();
-            automatic_ = false;
+            automatic = false;
         }
     } catch (...) {
         white = before;
@@ -113,19 +115,21 @@ void Session::setWhite(const std::string& text) {
 
 void Session::setDisplay(const std::string& text) {
     if (text.starts_with("displays/") || text.ends_with(".csv")) {
-        SpectralDisplay made = spectralDisplay(resolver_.resolve(text, Role::any, {}));
-        (void)made.seenBy(standard_);
-        spectralDisplay_ = std::move(made);
+        const auto made =
+            std::make_shared<const SpectralDisplay>(spectralDisplay(resolver_.resolve(text, Role::any, {})));
+        (void)made->seenBy(standard_);
+        primaries = made;
     } else {
-        display_ = spectrad::displayFor(text);
-        spectralDisplay_.reset();
+        codes = spectrad::displayFor(text);
+        primaries.reset();
     }
     display = text;
 }
 
 void Session::setPicture(const std::string& name, const std::string& value) {
-    if (!cube()) throw UsageError(name + ": a scene's picture is what the observer sees; bands are a cube's");
-    const std::vector<double>& nm = subject().wavelengths().nm;
+    if (!aboutCube())
+        throw UsageError(name + ": a scene's picture is what the observer sees; bands are a cube's");
+    const std::vector<double>& nm = about().wavelengths().nm;
     const auto nearestBand = [&](std::string_view text) {
         const double wanted = numberIn(name, std::string(text), nm.front(), nm.back());
         return static_cast<size_t>(std::min_element(nm.begin(), nm.end(),
@@ -168,7 +172,7 @@ void Session::set(const std::string& assignment) {
              Look changed = look(edited);
              changed.eye = std::make_shared<const Eye>(Eye{detector, towardsXyz(detector, standard_)});
              touch(changed);
-             (void)subject().whiteAmount(changed);
+             check(changed);
              look(edited) = std::move(changed);
          }},
         {"adapt", [&] { adaptation = parseAdaptation(value); }},
@@ -177,7 +181,7 @@ void Session::set(const std::string& assignment) {
          [&] {
              if (value == "auto") {
                  heldLuminance.reset();
-                 automatic_ = true;
+                 automatic = true;
                  ev = 0;
              } else {
                  ev = numberIn("exposure", value, -mostStops, mostStops);
@@ -204,9 +208,8 @@ void Session::set(const std::string& assignment) {
         {"gamut", [&] { gamutWarning = flagIn("gamut", value); }},
         {"samples",
          [&] {
-             if (!scene()) throw UsageError("samples: a cube has its samples already");
-             scene()->setSamples(static_cast<int>(numberIn("samples", value, 1, 64)));
-             invalidate();
+             if (!aboutScene()) throw UsageError("samples: a cube has its samples already");
+             stand.samples = static_cast<int>(numberIn("samples", value, 1, 64));
          }},
     };
     std::vector<std::string> names{"picture", "band", "bands"};

@@ -1,13 +1,18 @@
 // What the viewer shows: a scene, or a cube that is there already. Each answers the same few questions.
+//
+// Who may ask: const members say what never changes after opening, and any thread may call them; all others
+// belong to whoever holds the subject (viewer/painter.h).
 #pragma once
 
 #include "colour/observe.h"
-#include "colour/rendering.h"
 #include "spectrum/wavelengths.h"
-#include "viewer/look.h"
+#include "viewer/still.h"
+#include "viewer/wish.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -38,15 +43,20 @@ class Subject {
     [[nodiscard]] virtual std::filesystem::path file() const = 0;
     [[nodiscard]] virtual std::vector<std::filesystem::path> files() const = 0;
     [[nodiscard]] virtual Look firstLook() const = 0;
-
+    /// Its own size; a scene can be looked at in others.
     [[nodiscard]] virtual int width() const = 0;
     [[nodiscard]] virtual int height() const = 0;
-    /// The bands that spectrumAt has.
+    /// The bands of its spectra.
     [[nodiscard]] virtual const Wavelengths& wavelengths() const = 0;
     /// What its values are: "radiance", "reflectance" …
     [[nodiscard]] virtual std::string quantity() const = 0;
     /// "W.m^-2.sr^-1.nm^-1", or nothing for a ratio.
     [[nodiscard]] virtual std::string unit() const = 0;
+
+    /// How it is looked at from now on.
+    virtual void stand(const Stand&) {}
+    /// What follows ends with Stopped (base/stopped.h) once that is asked for.
+    void heed(std::stop_token stop) { stop_ = std::move(stop); }
 
     /// The picture as codes. With two looks `mix` goes from the first (0) to the second (1) by mixing their
     /// lights' spectra.
@@ -54,14 +64,18 @@ class Subject {
     virtual void showMixed(const Look& a, const Look& b, double mix, const Shown& shown, Codes& codes) = 0;
     /// XYZ of all pixels, absolute.
     [[nodiscard]] virtual ChannelImage xyz(const Look& look) = 0;
-    /// Band values of a pixel; empty outside the picture.
-    [[nodiscard]] virtual std::vector<double> spectrumAt(int x, int y, const Look& look) = 0;
-    /// What makes X Y Z of such a spectrum: weights of the look's detector (with its light on a ratio).
-    [[nodiscard]] virtual DetectorWeights weights(const Look& look) const = 0;
+    /// What show() has shown, for the meter.
+    [[nodiscard]] virtual std::shared_ptr<Still> still(const Look& look) = 0;
     /// The white of the look: its first light's chromaticity (E where there is none).
     [[nodiscard]] virtual White white(const Look& look) = 0;
     /// How much of that light there is, photometric, in the light's own unit: its weight in a mixture.
     [[nodiscard]] virtual double whiteAmount(const Look& look) = 0;
+
+  protected:
+    [[nodiscard]] const std::stop_token& stop() const { return stop_; }
+
+  private:
+    std::stop_token stop_;
 };
 
 }  // namespace spectrad::view

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <filesystem>
 #include <imgui.h>
+#include <utility>
 
 namespace spectrad::view {
 
@@ -81,7 +82,10 @@ Viewer::Viewer(Face& face, Session& session)
     left_ = canvas_.makeTexture(false);
     right_ = canvas_.makeTexture(false);
     panels_.frameOf = [this](int x, int y) {
-        return session_.scene() ? std::array<double, 2>{x + 0.5, y + 0.5} : place_.frameOf(x, y);
+        if (!session_.aboutScene()) return place_.frameOf(x, y);
+        const Painting& shown = session_.painting();
+        return std::array{(x + 0.5) * frameWidth_ / std::max(1, shown.width),
+                          (y + 0.5) * frameHeight_ / std::max(1, shown.height)};
     };
     prepare(panels_, session_);
 }
@@ -96,8 +100,13 @@ std::array<int, 2> Viewer::frameAt(double x, double y) const {
 
 std::array<int, 2> Viewer::pixelUnder(double x, double y) const {
     const auto [column, row] = frameAt(x, y);
-    if (session_.scene()) return {column, row};
-    return place_.pixelAt(column, row);
+    if (!session_.aboutScene()) return place_.pixelAt(column, row);
+    // Of another size than the frame while the one of that size is being made.
+    const Painting& shown = session_.painting();
+    const auto along = [](int at, int pixels, int frame) {
+        return pixels == frame || frame < 1 ? at : static_cast<int>(std::floor((at + 0.5) * pixels / frame));
+    };
+    return {along(column, shown.width, frameWidth_), along(row, shown.height, frameHeight_)};
 }
 
 int Viewer::dividerColumn(int frameWidth) const {
@@ -105,14 +114,12 @@ int Viewer::dividerColumn(int frameWidth) const {
 }
 
 void Viewer::resizePicture(const FaceSize& size) {
-    SceneSubject* scene = session_.scene();
-    if (!scene) {
-        place_.fit(session_.subject().width(), session_.subject().height(), size.pixelWidth,
-                   size.pixelHeight);
+    if (!session_.aboutScene()) {
+        place_.fit(session_.about().width(), session_.about().height(), size.pixelWidth, size.pixelHeight);
         if (size.pixelWidth != frameWidth_ || size.pixelHeight != frameHeight_) placed_ = false;
-    } else if (scene->width() != size.pixelWidth || scene->height() != size.pixelHeight) {
-        scene->setSize(size.pixelWidth, size.pixelHeight);
-        session_.invalidate();
+    } else if (session_.stand.width != size.pixelWidth || session_.stand.height != size.pixelHeight) {
+        session_.stand.width = size.pixelWidth;
+        session_.stand.height = size.pixelHeight;
         settled_ = false;
     }
     frameWidth_ = size.pixelWidth;
@@ -120,38 +127,64 @@ void Viewer::resizePicture(const FaceSize& size) {
 }
 
 void Viewer::takeSamples() {
-    SceneSubject* scene = session_.scene();
+    const SceneSubject* scene = session_.aboutScene();
     const int final = scene ? scene->finalSamples() : 1;
-    const bool moving = held_[0] || held_[1] || held_[2];
+    const bool moving = held_[0] || held_[1] || held_[2] || flying_;
     constexpr int refine = 4;  // times as many samples in each idle frame
-    const int wanted = moving && !settled_ ? 1 : std::min(final, settled_ ? final : samples_ * refine);
-    if (scene && wanted != scene->samples()) {
-        scene->setSamples(wanted);
-        session_.invalidate();
-    }
+    int wanted = std::min(final, settled_ ? final : samples_ * refine);
+    if (moving && !settled_)
+        wanted = 1;
+    else if (session_.paints())  // first those that are being made
+        wanted = samples_;
+    if (scene && wanted != session_.stand.samples.value_or(final)) session_.stand.samples = wanted;
     samples_ = wanted;
 }
 
+void Viewer::takeNews() {
+    const News news = session_.take();
+    if (news.picture) {
+        placed_ = false;
+        panels_.meter.reset();
+    }
+    if (news.opened) settled_ = false;
+    if (news.opened || !news.problem.empty()) panels_.message = news.problem;
+    if (!news.remark.empty()) panels_.remark = news.remark;
+}
+
+void Viewer::findClicked() {
+    if (!clicked_ || session_.paints()) return;
+    const auto [x, y] = *std::exchange(clicked_, std::nullopt);
+    if (SceneSubject* scene = session_.scene()) panels_.selected = scene->hitAt(x, y);
+}
+
 void Viewer::uploadPictures(const FaceSize& size) {
-    if (session_.refresh(leftPixels_, rightPixels_)) {
+    if (session_.begin()) {
         placed_ = false;
         panels_.meter.reset();
     }
     if (placed_) return;
+    const Painting& shown = session_.painting();
     const auto upload = [&](GLuint texture, const Codes& pixels) {
         if (pixels.empty()) return;
-        if (!session_.scene()) place_.compose(pixels, composed_);
-        canvas_.upload(texture, size.pixelWidth, size.pixelHeight,
-                       session_.scene() ? pixels.data() : composed_.data());
+        if (session_.aboutScene()) {
+            canvas_.upload(texture, shown.width, shown.height, pixels.data());
+        } else {
+            place_.compose(pixels, composed_);
+            canvas_.upload(texture, size.pixelWidth, size.pixelHeight, composed_.data());
+        }
     };
-    upload(left_, leftPixels_);
-    upload(right_, rightPixels_);
+    upload(left_, shown.left);
+    upload(right_, shown.right);
     placed_ = true;
 }
 
 void Viewer::frame(double seconds) {
     const Stopwatch clock;
-    for (const Event& event : face_.events(queue_.empty() && settled_ ? seconds : 0))
+    // While something is being made, whoever waits for it is told soon.
+    constexpr double soon = 1.0 / 60;  // s
+    const bool idle = queue_.empty() && settled_;
+    const bool busy = session_.paints() || session_.saves();
+    for (const Event& event : face_.events(idle ? (busy ? std::min(seconds, soon) : seconds) : 0))
         queue_.push_back(event);
     // A press and its release are seen in two frames, and whose press it is (a panel's or the picture's) is
     // known only in the frame after the pointer came.
@@ -164,10 +197,7 @@ void Viewer::frame(double seconds) {
         take(event);
         if (event.kind == Event::Kind::button || event.kind == Event::Kind::key) break;
     }
-    if (session_.reload()) {
-        panels_.message = session_.problem;
-        settled_ = false;
-    }
+    takeNews();
     const FaceSize size = face_.size();
     if (size.pixelWidth < 1 || size.pixelHeight < 1) {  // minimised: nothing to draw into
         settled_ = true;
@@ -177,14 +207,16 @@ void Viewer::frame(double seconds) {
     fly();
     takeSamples();
     try {
+        findClicked();
         uploadPictures(size);
     } catch (const InputError& error) {
         panels_.message = error.what();
     } catch (const UsageError& error) {
         panels_.message = error.what();
     }
-    settled_ = samples_ >= (session_.scene() ? session_.scene()->finalSamples() : 1);
-    panels_.samples = session_.scene() ? samples_ : 0;
+    settled_ = samples_ >= (session_.aboutScene() ? session_.aboutScene()->finalSamples() : 1) &&
+               session_.settled() && !clicked_;
+    panels_.samples = session_.aboutScene() ? samples_ : 0;
     draw(size);
     face_.present();
     writeWanted();
@@ -195,7 +227,8 @@ void Viewer::drawPictures(const FaceSize& size) {
     canvas_.begin(size.pixelWidth, size.pixelHeight);
     const bool zebra = session_.gamutWarning && session_.mode != Mode::difference;
     const int width = size.pixelWidth, height = size.pixelHeight;
-    if (session_.mode == Mode::split && !rightPixels_.empty()) {
+    if (session_.painting().left.empty()) return;  // the first is being made
+    if (session_.mode == Mode::split && !session_.painting().right.empty()) {
         const int divider = dividerColumn(width);
         canvas_.drawPicture(left_, width, height, 0, divider, zebra);
         canvas_.drawPicture(right_, width, height, divider, width, zebra);
@@ -209,10 +242,12 @@ void Viewer::draw(const FaceSize& size) {
     const auto [x, y] = pixelUnder(pointerX_, pointerY_);
     const bool overRight =
         session_.mode == Mode::split && frameAt(pointerX_, pointerY_)[0] >= dividerColumn(size.pixelWidth);
-    if (panels_.visible && settled_ && inside && !panels_.meter) {
-        Pin pin = session_.measured(x, y, session_.look(overRight ? 1 : 0));
+    const std::shared_ptr<Still>& still = session_.painting().stills[overRight ? 1 : 0];
+    if (panels_.visible && still && inside && !panels_.meter) {
+        Pin pin = still->measured(x, y);
         if (!pin.spectrum.empty()) panels_.meter = std::move(pin);
     }
+    panels_.busy = session_.busy();
     drawPictures(size);
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(size.pixelWidth), static_cast<float>(size.pixelHeight)};
@@ -227,12 +262,22 @@ void Viewer::draw(const FaceSize& size) {
 }
 
 Picture8 Viewer::picture() {
-    do
+    frame(0);
+    while (!settled()) {
+        session_.await(1.0 / 60);
         frame(0);
-    while (!settled());
+    }
     // Panels that a change has made show it in the next frame.
     frame(0);
     return canvas_.read();
+}
+
+void Viewer::finish() {
+    do {
+        session_.await(1.0 / 60);
+        frame(0);
+    } while (!closed_ && (!settled() || session_.saves()));
+    session_.rethrowFailedSave();
 }
 
 }  // namespace spectrad::view

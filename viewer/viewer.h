@@ -52,16 +52,20 @@ class Viewer {
     void dolly(double steps);
     void frameSphere(Vec3 middle, double radius);
     void fly();
-    void select(int x, int y);
     void nextIlluminant();
     void keepOrGo(const Event& event);
     void toHome();
     void frameAll();
     void moveTo(const Pose& pose);
-    void addPin(int x, int y, const Look& look);
+    void addPin(int x, int y);
     void resizePicture(const FaceSize& size);
     void takeSamples();
+    void takeNews();
+    /// What was clicked is found by the subject, once it is at hand.
+    void findClicked();
     void uploadPictures(const FaceSize& size);
+    /// Frames until all jobs are done. Throws what a save has thrown.
+    void finish();
     void draw(const FaceSize& size);
     void drawPictures(const FaceSize& size);
     /// Of the frame; x, y in window units.
@@ -91,16 +95,17 @@ class Viewer {
     Canvas canvas_;
     PanelState panels_;
     GLuint left_ = 0, right_ = 0, font_ = 0;
-    Codes leftPixels_, rightPixels_, composed_;
-    PicturePlace place_;       ///< of a cube's picture
-    bool placed_ = false;      ///< the frame holds the pictures as they lie now
-    std::deque<Event> queue_;  ///< of the face and of scripts, in order
+    Codes composed_;
+    PicturePlace place_;                         ///< of a cube's picture
+    bool placed_ = false;                        ///< the frame holds the pictures as they lie now
+    std::optional<std::array<int, 2>> clicked_;  ///< a pixel whose node is asked for
+    std::deque<Event> queue_;                    ///< of the face and of scripts, in order
     std::array<std::optional<Pose>, 10> bookmarks_;
     std::array<bool, 3> held_{};    ///< buttons over the picture
     std::array<bool, 512> keys_{};  ///< held down
     double pointerX_ = 0, pointerY_ = 0, pressedX_ = 0, pressedY_ = 0;
     unsigned modifiers_ = 0;
-    bool draggingDivider_ = false, settled_ = false, closed_ = false;
+    bool draggingDivider_ = false, flying_ = false, settled_ = false, closed_ = false;
     int samples_ = 1, frameWidth_ = 0, frameHeight_ = 0;
     size_t illuminant_ = 0;
 };

@@ -9,14 +9,15 @@
 namespace spectrad::view {
 
 Picture8 Viewer::pictureAlone() {
-    const int width = session_.subject().width(), height = session_.subject().height();
-    Picture8 alone{width, height, 3, {}};
-    alone.pixels.reserve(3 * leftPixels_.size());
-    const bool split = session_.mode == Mode::split && !rightPixels_.empty();
+    const Painting& shown = session_.painting();
+    const int width = shown.width;
+    Picture8 alone{width, shown.height, 3, {}};
+    alone.pixels.reserve(3 * shown.left.size());
+    const bool split = shown.wish.mode == Mode::split && !shown.right.empty();
     const int divider = split ? dividerColumn(width) : width;
-    for (size_t i = 0; i < leftPixels_.size(); ++i) {
+    for (size_t i = 0; i < shown.left.size(); ++i) {
         const bool right = static_cast<int>(i % static_cast<size_t>(width)) >= divider;
-        const std::uint32_t code = right ? rightPixels_[i] : leftPixels_[i];
+        const std::uint32_t code = right ? shown.right[i] : shown.left[i];
         for (const int shift : {0, 8, 16})
             alone.pixels.push_back(static_cast<std::uint8_t>(code >> shift & 255));
     }
@@ -28,7 +29,7 @@ void Viewer::writeAlone(const std::filesystem::path& target) {
         throw UsageError("'" + target.string() + "' must end in .png to be a picture");
     writePng(target, pictureAlone(),
              {{"Software", session_.software},
-              {"Description", fmt::format("{} seen by {}", session_.subject().file().string(),
+              {"Description", fmt::format("{} seen by {}", session_.about().file().string(),
                                           session_.look(0).eye->detector.name)}},
              session_.display == "srgb");
 }
@@ -56,7 +57,7 @@ void Viewer::writeWanted() {
                 writeFile(wanted.file, session_.pinsAsCsv());
                 break;
         }
-        panels_.remark = "wrote " + wanted.file;
+        if (wanted.what != Wanted::What::cube || session_.waits) panels_.remark = "wrote " + wanted.file;
     });
 }
 
@@ -105,7 +106,7 @@ void Viewer::play(const Action& action) {
         }
         case Action::Kind::pin: {
             (void)picture();
-            addPin(x, y, session_.look(0));
+            addPin(x, y);
             return;
         }
         case Action::Kind::pins:
@@ -114,6 +115,12 @@ void Viewer::play(const Action& action) {
         case Action::Kind::wait:
             for (int i = 0; i < x && !closed_; ++i)
                 frame(0);
+            return;
+        case Action::Kind::jobs:
+            session_.waits = x != 0;
+            return;
+        case Action::Kind::finish:
+            finish();
             return;
         case Action::Kind::close:
             closed_ = true;

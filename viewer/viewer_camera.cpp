@@ -8,8 +8,7 @@
 namespace spectrad::view {
 
 void Viewer::moveTo(const Pose& pose) {
-    session_.scene()->setPose(pose);
-    session_.invalidate();
+    session_.stand.pose = pose;
     settled_ = false;
     samples_ = 1;
 }
@@ -17,18 +16,18 @@ void Viewer::moveTo(const Pose& pose) {
 void Viewer::toHome() {
     place_.reset();
     placed_ = false;
-    if (session_.scene()) moveTo(session_.scene()->home());
+    if (session_.aboutScene()) moveTo(session_.aboutScene()->home());
 }
 
 void Viewer::frameAll() {
-    if (!session_.scene()) return toHome();
-    const auto [middle, radius] = session_.scene()->bounds();
+    if (!session_.aboutScene()) return toHome();
+    const auto [middle, radius] = session_.aboutScene()->bounds();
     frameSphere(panels_.selected ? panels_.selected->place : middle, panels_.selected ? radius / 4 : radius);
 }
 
 void Viewer::orbit(double degreesRight, double degreesUp) {
-    if (!session_.scene()) return;
-    Pose pose = session_.scene()->pose();
+    if (!session_.aboutScene()) return;
+    Pose pose = session_.stand.pose;
     const Vec3 arm = pose.eye - pose.target;
     const Vec3 side = normalized(cross(pose.up, arm));
     // Never over the poles of the world's up: the horizon stays level.
@@ -44,16 +43,16 @@ void Viewer::orbit(double degreesRight, double degreesUp) {
 }
 
 void Viewer::pan(double pixelsRight, double pixelsDown) {
-    if (!session_.scene()) {
+    if (!session_.aboutScene()) {
         place_.move(pixelsRight, pixelsDown);
         placed_ = false;
         return;
     }
-    Pose pose = session_.scene()->pose();
+    Pose pose = session_.stand.pose;
     const Vec3 forward = pose.target - pose.eye;
     const Vec3 side = normalized(cross(forward, pose.up)), up = normalized(cross(side, forward));
-    const double perPixel = (pose.orthographic ? 1 : length(forward)) /
-                            (pose.pixelsPerSlopeOverHeight * session_.scene()->height());
+    const double perPixel =
+        (pose.orthographic ? 1 : length(forward)) / (pose.pixelsPerSlopeOverHeight * session_.stand.height);
     const Vec3 by = side * (-pixelsRight * perPixel) + up * (pixelsDown * perPixel);
     pose.eye = pose.eye + by;
     pose.target = pose.target + by;
@@ -62,12 +61,12 @@ void Viewer::pan(double pixelsRight, double pixelsDown) {
 
 void Viewer::dolly(double steps) {
     const double closer = std::pow(0.9, std::clamp(steps, -100.0, 100.0));
-    if (!session_.scene()) {
+    if (!session_.aboutScene()) {
         place_.zoom(1 / closer, pointerX_ * panels_.scale, pointerY_ * panels_.scale);
         placed_ = false;
         return;
     }
-    Pose pose = session_.scene()->pose();
+    Pose pose = session_.stand.pose;
     if (pose.orthographic)
         pose.pixelsPerSlopeOverHeight /= closer;
     else
@@ -76,7 +75,7 @@ void Viewer::dolly(double steps) {
 }
 
 void Viewer::frameSphere(Vec3 middle, double radius) {
-    Pose pose = session_.scene()->pose();
+    Pose pose = session_.stand.pose;
     const Vec3 back = normalized(pose.eye - pose.target);
     pose.target = middle;
     if (pose.orthographic) {
@@ -90,7 +89,8 @@ void Viewer::frameSphere(Vec3 middle, double radius) {
 }
 
 void Viewer::fly() {
-    if (!session_.scene()) return;
+    flying_ = false;
+    if (!session_.aboutScene()) return;
     double ahead = 0, aside = 0, rise = 0;
     const auto axis = [&](int plus, int minus) {
         return (keys_[static_cast<size_t>(plus)] ? 1.0 : 0.0) -
@@ -101,7 +101,8 @@ void Viewer::fly() {
     rise = axis(pageUp, pageDown);
     if (ahead == 0 && aside == 0 && rise == 0) return;
     if ((modifiers_ & control) != 0) return;
-    Pose pose = session_.scene()->pose();
+    flying_ = true;
+    Pose pose = session_.stand.pose;
     const Vec3 forward = pose.target - pose.eye;
     const double step = 0.02 * length(forward);
     const Vec3 by = (normalized(forward) * ahead + normalized(cross(forward, pose.up)) * aside +

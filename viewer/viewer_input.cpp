@@ -59,8 +59,7 @@ void Viewer::take(const Event& event) {
             held_[which] = ours;
             if (!event.pressed) draggingDivider_ = false;
             if (click) {
-                const auto [x, y] = pixelUnder(pointerX_, pointerY_);
-                select(x, y);
+                clicked_ = pixelUnder(pointerX_, pointerY_);
             }
             break;
         }
@@ -82,16 +81,12 @@ void Viewer::takeMove(const Event& event) {
         return;
     }
     constexpr double degreesPerUnit = 0.3;
-    if (held_[0] && session_.scene() && (modifiers_ & shift) == 0)
+    if (held_[0] && session_.aboutScene() && (modifiers_ & shift) == 0)
         orbit(-dx * degreesPerUnit, dy * degreesPerUnit);
     else if (held_[0] || held_[2])
         pan(dx * panels_.scale, dy * panels_.scale);
     else if (held_[1])
         dolly(-0.02 * dy);
-}
-
-void Viewer::select(int x, int y) {
-    if (session_.scene()) panels_.selected = session_.scene()->hitAt(x, y);
 }
 
 void Viewer::nextIlluminant() {
@@ -103,16 +98,18 @@ void Viewer::nextIlluminant() {
 
 /// ctrl + digit keeps a view of the scene, the digit goes there.
 void Viewer::keepOrGo(const Event& event) {
-    if (!session_.scene()) return;
+    if (!session_.aboutScene()) return;
     std::optional<Pose>& bookmark = bookmarks_[static_cast<size_t>(event.code - '0')];
     if ((event.modifiers & control) != 0)
-        bookmark = session_.scene()->pose();
+        bookmark = session_.stand.pose;
     else if (bookmark)
         moveTo(*bookmark);
 }
 
-void Viewer::addPin(int x, int y, const Look& look) {
-    Pin pin = session_.measured(x, y, look);
+void Viewer::addPin(int x, int y) {
+    const std::shared_ptr<Still>& still = session_.painting().stills[0];
+    if (!still) throw UsageError("a pin wants the picture with all its samples: one moment");
+    Pin pin = still->measured(x, y);
     if (pin.spectrum.empty()) throw InputError(fmt::format("the pin {},{} lies outside the picture", x, y));
     session_.pins.push_back(std::move(pin));
 }
@@ -136,6 +133,7 @@ void Viewer::takeKey(const Event& event) {
         case escape:
             panels_.help = false;
             panels_.message.clear();
+            session_.stopSaving();
             break;
         case 'L':
             said([&] { nextIlluminant(); });
@@ -161,7 +159,7 @@ void Viewer::takeKey(const Event& event) {
             session_.ev += 0.25;
             break;
         case 'P':
-            said([&] { addPin(x, y, session_.look(0)); });
+            said([&] { addPin(x, y); });
             break;
         case 'F':
             frameAll();

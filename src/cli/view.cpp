@@ -24,7 +24,7 @@ struct ViewArguments {
 };
 
 /// What opens the scene or the cube, now and after each change on disk.
-view::Opener openerOf(const ViewArguments& arguments, const Library& library, Notes& notes) {
+view::Opener openerOf(const ViewArguments& arguments, const Library& library) {
     const SceneArguments& scene = arguments.scene;
     if (looksLikeCube(scene.file)) {
         SceneArguments others = scene;
@@ -32,20 +32,20 @@ view::Opener openerOf(const ViewArguments& arguments, const Library& library, No
         if (const std::string given = recorded(others); !given.empty())
             throw UsageError("'" + scene.file + "' is a cube, whose picture is there already:" + given +
                              (given.starts_with(" --device") ? " has no use" : " chooses one of a scene"));
-        return [file = scene.file, &library, &notes] {
+        return [file = scene.file, &library](Notes& notes) {
             return std::make_unique<view::CubeSubject>(file, library, notes);
         };
     }
     return [load = loadOptions(scene), settings = renderSettings(scene), file = scene.file,
-            device = Device::open(deviceNumber(scene.device)), &library, &notes] {
+            device = Device::open(deviceNumber(scene.device)), &library](Notes& notes) {
         return std::make_unique<view::SceneSubject>(file, load, settings, device, library, notes);
     };
 }
 
 /// Of the window or frame, in pixels: --size, else the picture's own; a cube's as far as it is handy.
 std::pair<int, int> sizeOf(const ViewArguments& arguments, view::Session& session, bool offscreen) {
-    view::Subject& subject = session.subject();
-    if (session.scene()) return {subject.width(), subject.height()};
+    const view::Subject& subject = session.about();
+    if (session.aboutScene()) return {subject.width(), subject.height()};
     if (!arguments.scene.size.empty()) return parseSize("--size", arguments.scene.size);
     constexpr int largestFrame = 8192;  // pixels a side that OpenGL draws into anywhere
     if (offscreen) return {std::min(subject.width(), largestFrame), std::min(subject.height(), largestFrame)};
@@ -69,10 +69,10 @@ ExitCode show(const ViewArguments& arguments) {
     if (!arguments.script.empty()) actions = view::parseScript(readFile(arguments.script), arguments.script);
 
     const Library library = Library::open();
-    view::Session session(openerOf(arguments, library, console.notes()), library, console.notes(),
-                          arguments.scene.restricted);
+    view::Session session(openerOf(arguments, library), library, console.notes(), arguments.scene.restricted);
     console.printNotes();
     session.software = "Spectrad " SPECTRAD_VERSION;
+    session.waits = offscreen;
     const auto [width, height] = sizeOf(arguments, session, offscreen);
     const std::unique_ptr<view::Face> face =
         offscreen ? view::openOffscreen(width, height)

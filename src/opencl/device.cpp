@@ -135,6 +135,17 @@ Device Device::open(std::optional<int> number) {
     return device;
 }
 
+Device Device::withOwnQueue() const {
+    Device device;
+    device.body_ = std::make_shared<Body>();
+    device.body_->info = body_->info;
+    device.body_->device = body_->device;
+    device.body_->context = body_->context;
+    checked(*body_, "opening another queue",
+            [&] { device.body_->queue = cl::CommandQueue(body_->context, body_->device); });
+    return device;
+}
+
 const DeviceInfo& Device::info() const {
     return body_->info;
 }

@@ -28,6 +28,9 @@ class Device {
     /// number: the first GPU, else the first device.
     static Device open(std::optional<int> number);
 
+    /// The same context with a queue of its own: for another thread, which can use the same buffers.
+    [[nodiscard]] Device withOwnQueue() const;
+
     [[nodiscard]] const DeviceInfo& info() const;
 
     struct Body;

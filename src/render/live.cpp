@@ -1,5 +1,6 @@
 #include "render/live.h"
 
+#include "base/stopped.h"
 #include "render/light_groups.h"
 #include "render/memory_plan.h"
 
@@ -88,10 +89,12 @@ void LiveImage::wear(Plan shading) {
     pipelines_.clear();
 }
 
-void LiveImage::resolve(int samples) {
+void LiveImage::resolve(int samples, const std::stop_token& stop) {
     Pipeline& wanted = pipeline(samples);
     if (current_ == &wanted) return;
     current_ = nullptr;
+    if (!seen_.expired()) strips_.clear();  // theirs stay theirs
+    seen_.reset();
     if (wanted.moved) {
         wanted.stages->transform();
         wanted.rows = planMemory(wanted.plan, device_.info(), wanted.lanes.slots).visibilityRows;
@@ -100,6 +103,7 @@ void LiveImage::resolve(int samples) {
     const int height = plan_.view.height;
     size_t count = 0;
     for (int row = 0; row < height;) {
+        throwIfStopped(stop);
         if (count == strips_.size()) strips_.emplace_back();
         wanted.stages->exchange(strips_[count]);
         const int rows = std::min(wanted.rows, height - row);
@@ -169,29 +173,42 @@ ChannelImage LiveImage::xyz(const std::vector<float>& colours) {
     return image;
 }
 
-std::vector<std::pair<std::uint32_t, float>> LiveImage::termsAt(int x, int y) const {
+std::shared_ptr<const SeenTerms> LiveImage::seen() {
+    if (!current_) return nullptr;
+    if (auto there = seen_.lock()) return there;
+    // Another queue does not wait for this one.
+    checked(device_.body(), "lighting", [&] { device_.body().queue.finish(); });
+    const auto made = std::make_shared<SeenTerms>();
+    made->width_ = plan_.view.width;
+    made->pitch_ = current_->stages->pitch();
+    for (const TermImage& strip : strips_)
+        made->strips_.push_back(
+            {strip.firstRow, strip.rows, strip.first.buffer(), strip.term.buffer(), strip.g.buffer()});
+    seen_ = made;
+    return made;
+}
+
+std::vector<std::pair<std::uint32_t, float>> SeenTerms::at(const Device& reader, int x, int y) const {
     std::vector<std::pair<std::uint32_t, float>> terms;
-    if (!current_ || x < 0 || y < 0 || x >= plan_.view.width || y >= plan_.view.height) return terms;
-    const auto strip = std::find_if(strips_.begin(), strips_.end(), [y](const TermImage& image) {
+    const auto strip = std::find_if(strips_.begin(), strips_.end(), [y](const Strip& image) {
         return y >= image.firstRow && y < image.firstRow + image.rows;
     });
-    if (strip == strips_.end()) return terms;
-    const auto block =
-        static_cast<size_t>((y - strip->firstRow) * (current_->stages->pitch() / SD_BLOCK) + x / SD_BLOCK);
+    if (strip == strips_.end() || x < 0 || x >= width_) return terms;
+    const auto block = static_cast<size_t>((y - strip->firstRow) * (pitch_ / SD_BLOCK) + x / SD_BLOCK);
     const auto read = [&](const cl::Buffer& buffer, size_t from, auto& out) {
         if (out.empty()) return;
         using Value = typename std::decay_t<decltype(out)>::value_type;
-        checked(device_.body(), "reading a pixel's terms", [&] {
-            device_.body().queue.enqueueReadBuffer(buffer, CL_TRUE, from * sizeof(Value),
-                                                   out.size() * sizeof(Value), out.data());
+        checked(reader.body(), "reading a pixel's terms", [&] {
+            reader.body().queue.enqueueReadBuffer(buffer, CL_TRUE, from * sizeof(Value),
+                                                  out.size() * sizeof(Value), out.data());
         });
     };
     std::vector<std::uint32_t> range(2);
-    read(strip->first.buffer(), block, range);
+    read(strip->first, block, range);
     std::vector<std::uint32_t> number(range[1] - range[0]);
     std::vector<float> g(number.size() * SD_BLOCK);
-    read(strip->term.buffer(), range[0], number);
-    read(strip->g.buffer(), size_t{range[0]} * SD_BLOCK, g);
+    read(strip->term, range[0], number);
+    read(strip->g, size_t{range[0]} * SD_BLOCK, g);
     for (size_t t = 0; t < number.size(); ++t)
         terms.emplace_back(number[t], g[t * SD_BLOCK + static_cast<size_t>(x % SD_BLOCK)]);
     return terms;

@@ -1,5 +1,6 @@
 #include "render/passes.h"
 
+#include "base/stopped.h"
 #include "render/bake.h"
 #include "render/renderer.h"
 #include "render/resident.h"
@@ -28,6 +29,7 @@ struct PassTextures::Body {
     const Library& library;
     Notes& notes;
     Save save;
+    std::stop_token stop;
     std::vector<GraphNode> graph;
     std::vector<std::optional<Rendered>> images;  ///< of the graph's nodes
     std::vector<size_t> waiting;                  ///< users that a node still has
@@ -80,7 +82,14 @@ CubeKind kindOf(PassKind kind) {
 PassTextures::PassTextures(const Scene& scene, const Library& library, const Device& device,
                            const RenderSettings& settings, Notes& notes, Save save)
     : TextureLoader(*chooseShot(scene, settings).scene, library, notes),
-      body_(new Body{device, library, notes, std::move(save), renderGraph(scene, settings, notes), {}, {}}) {
+      body_(new Body{device,
+                     library,
+                     notes,
+                     std::move(save),
+                     settings.stop,
+                     renderGraph(scene, settings, notes),
+                     {},
+                     {}}) {
     limitTo(device.info());
     for (const GraphNode& node : body_->graph)
         body_->waiting.push_back(node.users);
@@ -145,6 +154,7 @@ void PassTextures::Body::renderFaces(size_t number, RenderSettings settings,
     });
     textures.limitTo(device.info());
     for (int side = 0, faces = 1; side < faces; ++side) {
+        throwIfStopped(stop);
         settings.cubeFace = side;
         Plan plan = makePlan(node.shot, settings, library, textures, notes);
         faces = plan.faces;
@@ -169,6 +179,7 @@ std::shared_ptr<const ResidentTexels> PassTextures::Body::renderResident(size_t 
         const int height = plan.view.height;
         if (!stage) stage.emplace(device, plan.wavelengths, plan.view.width, height * plan.faces);
         Renderer(device, plan).renderOnDevice([&](int row, int rows, const cl::Buffer& bands, int pitch) {
+            throwIfStopped(stop);
             stage->add(bands, pitch, face * height + row, rows);
         });
     });
@@ -194,6 +205,7 @@ Cube PassTextures::Body::renderPlain(size_t number, Substitute substitute, bool 
         {
             Renderer renderer(device, plan);
             renderer.render([&](int first, int rows, const float* bands, const float*) {
+                throwIfStopped(stop);
                 std::copy_n(bands, static_cast<size_t>(rows) * rowValues,
                             top + static_cast<size_t>(first) * rowValues);
             });

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,7 @@ struct RenderSettings {
     const Detector* exact =
         nullptr;           ///< who sees TermTable::exactChannels (references want them); nobody if not said
     bool geometry = true;  ///< false: materials, lights and terms only, no triangles
+    std::stop_token stop;  ///< passes end with Stopped (base/stopped.h) between strips when it is asked for
 };
 
 /// Rows of the finished image, top to bottom, without gaps: bands[(row * bands + band) * width + x] in

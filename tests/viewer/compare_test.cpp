@@ -53,13 +53,13 @@ TEST_CASE("left of the divider is look A, right of it look B, also when it is dr
 TEST_CASE("the map of differences has the colours of compare, each pixel its own difference") {
     if (!canView()) return;
     Desk desk(smallScene());
-    desk.session->scene()->setSamples(4);
+    desk.session->stand.samples = 4;
     desk.session->set("look=B");
     desk.session->set("observer=cie1964-10");
     desk.session->set("mode=difference");
     desk.session->differenceTop = 3;
     Codes codes, unused;
-    (void)desk.session->refresh(codes, unused);
+    (void)desk.refresh(codes, unused);
     const White white =
         withLuminance(desk.session->whiteOf(desk.session->look(0)), *desk.session->heldLuminance);
     const ColourDifference expected =
@@ -71,9 +71,9 @@ TEST_CASE("the map of differences has the colours of compare, each pixel its own
         wrong += codes[i] != (0xff000000u | std::uint32_t{rgb[3 * i + 2]} << 16 |
                               std::uint32_t{rgb[3 * i + 1]} << 8 | rgb[3 * i]);
     CHECK(wrong == 0);
-    REQUIRE(desk.session->difference);
-    CHECK(desk.session->difference->max == expected.max);
-    CHECK(desk.session->difference->max > 0.5);
+    REQUIRE(desk.session->painting().difference);
+    CHECK(desk.session->painting().difference->max == expected.max);
+    CHECK(desk.session->painting().difference->max > 0.5);
 }
 
 TEST_CASE("a mixture of two lamps is what the mixed spectrum gives, fluorescence included") {
@@ -81,7 +81,7 @@ TEST_CASE("a mixture of two lamps is what the mixed spectrum gives, fluorescence
     // 100 cd of each of two shapes make a lamp of 200 cd whose spectrum is the sum of both.
     const std::string lamp = "spectrum=\"illuminants/D65\" intensity=\"300 cd\"";
     Desk desk(replaced(smallScene(), lamp, "spectrum=\"blackbody:2856\" intensity=\"300 cd\""));
-    desk.session->scene()->setSamples(4);
+    desk.session->stand.samples = 4;
     desk.session->set("look=B");
     desk.session->set("lamp.spectrum=blackbody:6500");
     desk.session->set("mode=mixture");
@@ -104,12 +104,12 @@ TEST_CASE("a mixture of two lamps is what the mixed spectrum gives, fluorescence
         pairs += std::to_string(nm) + ":" +
                  shortest(0.6 * part[0].at(nm) / luminous[0] + 0.4 * part[1].at(nm) / luminous[1]) + " ";
     Desk mixed(replaced(smallScene(), lamp, "spectrum=\"" + pairs + "\" intensity=\"300 cd\""));
-    mixed.session->scene()->setSamples(4);
+    mixed.session->stand.samples = 4;
     mixed.session->set("adapt=none");
     Codes a, b, unused;
-    (void)desk.session->refresh(a, unused);
+    (void)desk.refresh(a, unused);
     mixed.session->heldLuminance = desk.session->heldLuminance;
-    (void)mixed.session->refresh(b, unused);
+    (void)mixed.refresh(b, unused);
     REQUIRE(a.size() == b.size());
     int worst = 0;
     for (size_t i = 0; i < a.size(); ++i)

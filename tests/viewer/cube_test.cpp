@@ -51,8 +51,8 @@ TEST_CASE("a cube that is read in strips shows what one in memory does") {
     const ChannelImage a = held.xyz(look), b = streamed.xyz(look);
     CHECK(a.plane == b.plane);
     for (const int y : {0, 69, 4, 5, 33})
-        CHECK(held.spectrumAt(7, y, look) == streamed.spectrumAt(7, y, look));
-    CHECK(streamed.spectrumAt(width, 0, look).empty());
+        CHECK(held.still(look)->spectrumAt(7, y) == streamed.still(look)->spectrumAt(7, y));
+    CHECK(streamed.still(look)->spectrumAt(width, 0).empty());
     view::BandPicture picture;
     picture.bands = {20, 10, 5};
     Codes one, two;
@@ -113,7 +113,7 @@ TEST_CASE("a reflectance is relit: its colours are those of light x reflectance,
         const White white = cube.white(look);
         CHECK(white.xyz[1] == Approx(100));
         for (const int y : {0, 41}) {
-            std::vector<double> bands = cube.spectrumAt(11, y, look);
+            std::vector<double> bands = cube.still(look)->spectrumAt(11, y);
             // The curve that has these averages, times the lamp, natively; 400 to 700 nm of it.
             const Curve curve = Curve::table(whole.info.wavelengths.nm,
                                              nodalValues(whole.info.wavelengths, bands), Outside::zero);
@@ -164,19 +164,19 @@ TEST_CASE("a cube seen with two eyes: divider, difference, mixture") {
     desk.session->set("light.spectrum=illuminants/A");
     Codes a, b, left, right;
     desk.session->set("mode=split");
-    REQUIRE(desk.session->refresh(left, right));
+    REQUIRE(desk.refresh(left, right));
     CHECK(left != right);
     desk.session->set("mode=mixture");
     desk.session->set("mix=0");
-    (void)desk.session->refresh(a, b);
+    (void)desk.refresh(a, b);
     CHECK(a == left);
     desk.session->set("mix=1");
-    (void)desk.session->refresh(a, b);
+    (void)desk.refresh(a, b);
     CHECK(a == right);
     desk.session->set("mode=difference");
-    (void)desk.session->refresh(a, b);
-    REQUIRE(desk.session->difference);
-    CHECK(desk.session->difference->max > 1);
+    (void)desk.refresh(a, b);
+    REQUIRE(desk.session->painting().difference);
+    CHECK(desk.session->painting().difference->max > 1);
 }
 
 TEST_CASE("a thousand actions on a cube: no error of OpenGL, and every picture comes back") {

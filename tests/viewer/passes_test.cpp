@@ -47,7 +47,7 @@ constexpr const char* hall = R"(<scene version="1">
 )";
 
 std::string textNow(const Desk& desk) {
-    return view::sceneText(*desk.session->scene(), desk.session->look(0));
+    return view::sceneText(*desk.session->aboutScene(), desk.session->look(0), desk.session->stand.pose);
 }
 
 }  // namespace
@@ -62,6 +62,21 @@ TEST_CASE("prints, screens, a planar mirror and a backdrop are seen as render ma
     desk.session->set("blue.reflectance=charts/colorchecker/yellow");
     CHECK(worstDifference(desk, textNow(desk)) < bound);
     desk.session->set("chartlight.times=2");
+    CHECK(worstDifference(desk, textNow(desk)) < bound);
+}
+
+TEST_CASE("a lamp that shines in another pass alone changes the picture") {
+    if (!canView()) return;
+    std::string apart = hall;
+    for (const char* pass : {"<pass name=\"main\"", "<pass name=\"image\""}) {
+        const size_t at = apart.find(" chartlight", apart.find(pass));
+        apart.erase(at, std::string(" chartlight").size());
+    }
+    Desk desk{apart};
+    CHECK(worstDifference(desk, apart) < bound);
+    desk.session->set("chartlight.spectrum=illuminants/FL2");
+    CHECK(worstDifference(desk, textNow(desk)) < bound);
+    desk.session->set("chartlight.times=0.5");
     CHECK(worstDifference(desk, textNow(desk)) < bound);
 }
 

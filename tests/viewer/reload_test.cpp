@@ -89,9 +89,9 @@ TEST_CASE("an error on disk is said with line and column, and the last good pict
     CHECK(desk.session->reload());
     CHECK_FALSE(desk.session->problem.empty());
     view::Codes before, after, unused;
-    (void)desk.session->refresh(before, unused);
+    (void)desk.refresh(before, unused);
     desk.session->invalidate();
-    (void)desk.session->refresh(after, unused);
+    (void)desk.refresh(after, unused);
     rewrite(desk, "scene.xml", scene(day));
     CHECK(desk.session->reload());
     CHECK(desk.session->problem.empty());
@@ -117,7 +117,7 @@ TEST_CASE("what was changed in the viewer stays until the file says something el
     desk.session->set("paint.reflectance=charts/colorchecker/blue");
     desk.session->set("observer=cie1964-10");
     desk.play("camera orbit 30 10");
-    const Vec3 eye = desk.session->scene()->pose().eye;
+    const Vec3 eye = desk.session->stand.pose.eye;
     rewrite(
         desk, "scene.xml",
         scene(
@@ -131,12 +131,12 @@ TEST_CASE("what was changed in the viewer stays until the file says something el
     CHECK(look.lights[0].times == 0.5);
     CHECK(look.reflectances.size() == 1);
     CHECK(look.eye->detector.name == "cie1964-10");
-    CHECK(desk.session->scene()->pose().eye.x == eye.x);
+    CHECK(desk.session->stand.pose.eye.x == eye.x);
 
     rewrite(desk, "scene.xml", scene("spectrum=\"illuminants/A\" intensity=\"100 cd\"", "constant:0.3"));
     REQUIRE(desk.session->reload());
     CHECK(desk.session->look(0).lights[0].emitter.spectrum.text == "illuminants/A");
     CHECK(desk.session->look(0).lights[0].times == 1);
     CHECK(desk.session->look(0).reflectances.empty());
-    CHECK(desk.session->scene()->pose().eye.x == eye.x);
+    CHECK(desk.session->stand.pose.eye.x == eye.x);
 }

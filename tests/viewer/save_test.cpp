@@ -51,12 +51,14 @@ std::string without(std::string text, const std::string& part) {
 TEST_CASE("a scene in which nothing was changed is saved byte for byte") {
     if (!canView()) return;
     Desk desk{std::string(original)};
-    CHECK(view::sceneText(*desk.session->scene(), desk.session->look(0)) == original);
+    CHECK(view::sceneText(*desk.session->aboutScene(), desk.session->look(0), desk.session->stand.pose) ==
+          original);
     desk.session->set("a & b.reflectance=charts/colorchecker/blue");
     desk.session->set("a & b.reflectance=charts/colorchecker/red");
     desk.session->set("lamp.times=1");
     desk.play("camera orbit 10 5\nkey home");
-    CHECK(view::sceneText(*desk.session->scene(), desk.session->look(0)) == original);
+    CHECK(view::sceneText(*desk.session->aboutScene(), desk.session->look(0), desk.session->stand.pose) ==
+          original);
 }
 
 TEST_CASE("saved scenes differ in the changed attributes alone") {
@@ -66,7 +68,8 @@ TEST_CASE("saved scenes differ in the changed attributes alone") {
     desk.session->set("lamp.times=0.5");
     desk.session->set("sun.on=false");
     desk.session->set("a & b.reflectance=400:0.1 700:0.9");
-    std::string text = view::sceneText(*desk.session->scene(), desk.session->look(0));
+    std::string text =
+        view::sceneText(*desk.session->aboutScene(), desk.session->look(0), desk.session->stand.pose);
     CHECK(between(text, "position=\"200 400 400\" ", "/>") ==
           "spectrum=\"illuminants/FL11\" intensity=\"150   cd\"");
     CHECK(between(text, "name=\"sun\" ", "/>") ==
@@ -87,7 +90,7 @@ TEST_CASE("saved scenes differ in the changed attributes alone") {
     // A camera that moved gets what it lacks.
     desk.session->set("lamp.spectrum=illuminants/D65");
     desk.play("camera orbit 25 5");
-    text = view::sceneText(*desk.session->scene(), desk.session->look(0));
+    text = view::sceneText(*desk.session->aboutScene(), desk.session->look(0), desk.session->stand.pose);
     const std::string camera = between(text, "<camera ", ">");
     CHECK_THAT(camera, Catch::StartsWith("name=\"eye\" fov=\"40\"   look-from=\"") &&
                            Catch::Contains("size=\"64x48\" look-at=\"") && Catch::Contains("\" up=\""));
@@ -106,7 +109,7 @@ TEST_CASE("a saved scene renders to what the viewer shows, and so does a saved c
     (void)desk.viewer->picture();
     Codes shown, again, unused;
     desk.session->invalidate();
-    (void)desk.session->refresh(shown, unused);
+    (void)desk.refresh(shown, unused);
 
     const std::filesystem::path file = desk.folder.path() / "saved.xml";
     desk.session->saveScene(file);
@@ -114,7 +117,7 @@ TEST_CASE("a saved scene renders to what the viewer shows, and so does a saved c
     saved.session->heldLuminance = desk.session->heldLuminance;
     (void)saved.viewer->picture();
     saved.session->invalidate();
-    (void)saved.session->refresh(again, unused);
+    (void)saved.refresh(again, unused);
     REQUIRE(again.size() == shown.size());
     size_t other = 0;
     for (size_t i = 0; i < again.size(); ++i)
@@ -126,15 +129,15 @@ TEST_CASE("a saved scene renders to what the viewer shows, and so does a saved c
     desk.session->saveCube(desk.folder.path() / "saved.exr");
     Desk cube(desk.folder.path() / "saved.exr");
     cube.session->heldLuminance = desk.session->heldLuminance;
-    (void)cube.session->refresh(again, unused);
+    (void)cube.refresh(again, unused);
     REQUIRE(again.size() == shown.size());
     for (size_t i = 0; i < again.size(); ++i)
         for (const int shift : {0, 8, 16})
             other += std::abs(static_cast<int>(again[i] >> shift & 255) -
                               static_cast<int>(shown[i] >> shift & 255)) > 1;
     CHECK(other == 0);
-    const std::vector<double> metered = desk.session->subject().spectrumAt(30, 20, desk.session->look(0)),
-                              stored = cube.session->subject().spectrumAt(30, 20, cube.session->look(0));
+    const std::vector<double> metered = desk.measured(30, 20).spectrum,
+                              stored = cube.measured(30, 20).spectrum;
     REQUIRE(stored.size() == metered.size());
     for (size_t band = 0; band < stored.size(); ++band)  // lights apart or together: sums of floats
         CHECK(std::abs(stored[band] - metered[band]) <= 1e-6 * stored[band]);
@@ -167,12 +170,13 @@ TEST_CASE("a scene without a camera gets the one it was looked at with") {
 )";
     Desk desk(bare);
     desk.play("camera orbit 10 0");
-    const std::string text = view::sceneText(*desk.session->scene(), desk.session->look(0));
+    const std::string text =
+        view::sceneText(*desk.session->aboutScene(), desk.session->look(0), desk.session->stand.pose);
     const std::string added = "  <camera" + between(text, "  <camera", "/>") + "/>\n";
     CHECK(without(text, added) == bare);
     const std::filesystem::path file = desk.folder.write("again.xml", text);
     Desk again(file);
-    CHECK(length(again.session->scene()->home().eye - desk.session->scene()->pose().eye) < 1e-9);
+    CHECK(length(again.session->scene()->home().eye - desk.session->stand.pose.eye) < 1e-9);
 }
 
 TEST_CASE("what cannot be saved is refused in one line") {

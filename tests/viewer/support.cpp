@@ -58,17 +58,28 @@ Desk::Desk(const std::filesystem::path& file, RenderSettings settings)
 }
 
 void Desk::open(const std::filesystem::path& file, const RenderSettings& settings) {
-    const Opener opener = [this, file, settings]() -> std::unique_ptr<Subject> {
-        if (looksLikeCube(file)) return std::make_unique<CubeSubject>(file, library, notes);
-        return std::make_unique<SceneSubject>(file, LoadOptions{}, settings, device, library, notes);
+    const Opener opener = [this, file, settings](Notes& said) -> std::unique_ptr<Subject> {
+        if (looksLikeCube(file)) return std::make_unique<CubeSubject>(file, library, said);
+        return std::make_unique<SceneSubject>(file, LoadOptions{}, settings, device, library, said);
     };
     session = std::make_unique<Session>(opener, library, notes);
-    face = openOffscreen(session->subject().width(), session->subject().height());
+    face = openOffscreen(session->about().width(), session->about().height());
     viewer = std::make_unique<Viewer>(*face, *session);
 }
 
 void Desk::play(const std::string& script) {
     run(*viewer, parseScript(script, "script"), 0);
+}
+
+bool Desk::refresh(Codes& left, Codes& right) const {
+    if (!session->begin()) return false;
+    left = session->painting().left;
+    right = session->painting().right;
+    return true;
+}
+
+Pin Desk::measured(int x, int y) const {
+    return session->subject().still(session->look(0))->measured(x, y);
 }
 
 Cube rendered(const std::string& text, const Desk& desk, RenderSettings settings) {
@@ -80,7 +91,7 @@ Cube rendered(const std::string& text, const Desk& desk, RenderSettings settings
 
 double worstDifference(Desk& desk, const std::string& text, RenderSettings settings) {
     Look& look = desk.session->look(0);
-    desk.session->scene()->setSamples(16);
+    desk.session->stand.samples = 16;
     settings.samples = 16;
     const Cube cube = rendered(text, desk, settings);
     const ChannelImage viewed = desk.session->subject().xyz(look);

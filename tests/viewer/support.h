@@ -28,6 +28,10 @@ class Desk {
 
     /// Plays a script.
     void play(const std::string& script);
+    /// Paints what is wished for; false if that is there already.
+    bool refresh(Codes& left, Codes& right) const;
+    /// Look A's spectrum and colour, with as many samples as there are.
+    [[nodiscard]] Pin measured(int x, int y) const;
 
     TemporaryFolder folder;
     Notes notes;

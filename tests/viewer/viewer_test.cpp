@@ -63,13 +63,13 @@ TEST_CASE("colours after each change are those of a scene rendered with it") {
 TEST_CASE("the spectrum of a pixel is the rendered cube's, after changes too") {
     if (!canView()) return;
     Desk desk(smallScene());
-    desk.session->scene()->setSamples(16);
+    desk.session->stand.samples = 16;
     desk.session->set("lamp.spectrum=illuminants/FL11");
     const Cube cube = rendered(replaced(smallScene(), "illuminants/D65", "illuminants/FL11"), desk);
     double worst = 0;
     for (int y = 1; y < cube.info.height; y += 9)
         for (int x = 1; x < cube.info.width; x += 13) {
-            const std::vector<double> spectrum = desk.session->measured(x, y, desk.session->look(0)).spectrum;
+            const std::vector<double> spectrum = desk.measured(x, y).spectrum;
             REQUIRE(spectrum.size() == cube.info.wavelengths.size());
             double most = 1e-30;
             for (size_t band = 0; band < spectrum.size(); ++band)
@@ -79,8 +79,8 @@ TEST_CASE("the spectrum of a pixel is the rendered cube's, after changes too") {
                                  std::abs(spectrum[band] - static_cast<double>(cube.row(y, band)[x])) / most);
         }
     CHECK(worst < 1e-6);
-    CHECK(desk.session->measured(-1, 5, desk.session->look(0)).spectrum.empty());
-    CHECK(desk.session->measured(96, 5, desk.session->look(0)).spectrum.empty());
+    CHECK(desk.measured(-1, 5).spectrum.empty());
+    CHECK(desk.measured(96, 5).spectrum.empty());
 }
 
 TEST_CASE("a mixture of lights lies between its ends, exactly, fluorescence included") {
@@ -91,21 +91,21 @@ TEST_CASE("a mixture of lights lies between its ends, exactly, fluorescence incl
     view::Codes a, b, mixed, unused;
     desk.session->set("mode=mixture");
     desk.session->set("mix=0");
-    (void)desk.session->refresh(mixed, unused);
+    (void)desk.refresh(mixed, unused);
     desk.session->set("mode=single");
-    (void)desk.session->refresh(a, unused);
+    (void)desk.refresh(a, unused);
     CHECK(a == mixed);
     desk.session->set("mode=mixture");
     desk.session->set("mix=1");
-    (void)desk.session->refresh(b, unused);
+    (void)desk.refresh(b, unused);
     CHECK(a != b);
-    CHECK_FALSE(desk.session->refresh(b, unused));
+    CHECK_FALSE(desk.refresh(b, unused));
 }
 
 TEST_CASE("nodes and materials are found where they are clicked") {
     if (!canView()) return;
     Desk desk(smallScene());
-    desk.session->scene()->setSamples(16);
+    desk.session->stand.samples = 16;
     const auto ball = desk.session->scene()->hitAt(30, 32);
     REQUIRE(ball);
     CHECK(ball->node == "ball");
@@ -114,10 +114,10 @@ TEST_CASE("nodes and materials are found where they are clicked") {
     CHECK_FALSE(desk.session->scene()->hitAt(1, 1));
     // The look at the picture survives the look at one row.
     view::Codes before, after, unused;
-    (void)desk.session->refresh(before, unused);
+    (void)desk.refresh(before, unused);
     (void)desk.session->scene()->hitAt(60, 32);
     desk.session->invalidate();
-    (void)desk.session->refresh(after, unused);
+    (void)desk.refresh(after, unused);
     CHECK(before == after);
 }
 
