@@ -1,7 +1,11 @@
 /* First in every kernel file: the numeric policy, the shape of vectors, and the switches with their defaults.
  * Contraction is off and fused multiply-adds are written out, so that + - * / sqrt and fma give the same bits on every
- * conforming device as in C++. */
+ * conforming device as in C++. CONTRACT is for studies of what that costs. */
+#ifdef CONTRACT
+#pragma OPENCL FP_CONTRACT ON
+#else
 #pragma OPENCL FP_CONTRACT OFF
+#endif
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
 #pragma OPENCL EXTENSION cl_khr_int64_extended_atomics : enable

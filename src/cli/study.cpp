@@ -161,7 +161,8 @@ void addStudy(CLI::App& app, Action& action) {
     command->footer(
         "Renders the scene with bands of 1 to 40 nm (slit, box, point), 1 to 64 samples a pixel, Schlick's "
         "metals, "
-        "shorter floats, and by the methods of other renderers (RGB, XYZ, Gaussian quadrature, linear "
+        "textures filtered otherwise, kernels contracted and with fast mathematics, shorter floats, each "
+        "compression, and by the methods of other renderers (RGB, XYZ, Gaussian quadrature, linear "
         "models), and "
         "compares each with every nanometre from 360 to 830 nm: CIEDE2000, seconds, bytes. Without --size "
         "pictures "

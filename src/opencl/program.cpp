@@ -18,11 +18,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
+bool has(const std::vector<std::string>& defines, std::string_view switchedOn) {
+    return std::find(defines.begin(), defines.end(), switchedOn) != defines.end();
+}
+
 // Contraction is off in the sources; division and square root are to be correctly rounded where the device
-// can.
-std::string buildOptions(const Device::Body& body) {
+// can. But for a study of what that costs: CONTRACT, FAST_MATH.
+std::string buildOptions(const Device::Body& body, const std::vector<std::string>& defines) {
     std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info -Werror";
-    if (body.device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT)
+    if (has(defines, "CONTRACT")) options += " -cl-mad-enable";
+    if (has(defines, "FAST_MATH"))
+        options += " -cl-fast-relaxed-math";
+    else if (body.device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT)
         options += " -cl-fp32-correctly-rounded-divide-sqrt";
     return options;
 }
@@ -55,10 +62,10 @@ void appendWithIncludes(std::string_view name, std::set<std::string, std::less<>
     }
 }
 
-cl::Program fromBinary(const Device::Body& body, const std::string& bytes) {
+cl::Program fromBinary(const Device::Body& body, const std::string& bytes, const std::string& options) {
     const cl::Program::Binaries binaries{{bytes.begin(), bytes.end()}};
     cl::Program program(body.context, {body.device}, binaries);
-    program.build({body.device}, buildOptions(body).c_str());
+    program.build({body.device}, options.c_str());
     // Arguments are bound by name, and not every driver keeps the names in its binaries: asking throws where
     // they are gone.
     std::vector<cl::Kernel> kernels;
@@ -70,7 +77,8 @@ cl::Program fromBinary(const Device::Body& body, const std::string& bytes) {
 }
 
 // Cached binaries are only a shortcut: whatever is wrong with one, the source is compiled instead.
-bool loadCached(const Device::Body& body, const fs::path& file, cl::Program& program) {
+bool loadCached(const Device::Body& body, const fs::path& file, const std::string& options,
+                cl::Program& program) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) return false;
     try {
@@ -79,7 +87,7 @@ bool loadCached(const Device::Body& body, const fs::path& file, cl::Program& pro
         if (stored.size() <= digestLength ||
             sha256(stored.substr(digestLength)) != stored.substr(0, digestLength))
             return false;
-        program = fromBinary(body, stored.substr(digestLength));
+        program = fromBinary(body, stored.substr(digestLength), options);
         return true;
     } catch (const std::exception&) {
         return false;
@@ -127,14 +135,15 @@ Program::Program(const Device& device, const std::vector<std::string>& files,
     : device_(device) {
     const Device::Body& body = device.body();
     const std::string text = source(files, defines);
-    const std::string options = checked(body, "compiling kernels", [&] { return buildOptions(body); });
+    const std::string options =
+        checked(body, "compiling kernels", [&] { return buildOptions(body, defines); });
     const DeviceInfo& info = device.info();
     fs::path cached;
     if (!cacheFolder.empty()) {
         const std::string key = text + "\n" + options + "\n" + info.platform + "\n" + info.name + "\n" +
                                 info.driver + "\n" + info.version;
         cached = fs::path(cacheFolder) / (sha256(key) + ".clbin");
-        if (loadCached(body, cached, program_)) return;
+        if (loadCached(body, cached, options, program_)) return;
     }
     try {
         program_ = cl::Program(body.context, text);

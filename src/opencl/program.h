@@ -41,7 +41,8 @@ class Kernel {
 };
 
 /// One program of one or more .cl files of kernels/ (named without folder), compiled with `defines`
-/// ("HAS_GLOSS", "SAMPLES=16").
+/// ("HAS_GLOSS", "SAMPLES=16"). "CONTRACT" (a·b + c may be fused) and "FAST_MATH" (the compiler's fast
+/// relaxed mathematics) loosen the arithmetic, for studies of it.
 class Program {
   public:
     /// Throws MachineError with the compiler's log. `cacheFolder` empty: no disk cache.

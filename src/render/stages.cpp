@@ -24,7 +24,8 @@ std::vector<std::string> withDevice(std::vector<std::string> defines, const Devi
 std::vector<std::string> geometryDefines(const Plan& plan, const Device& device) {
     std::vector<std::string> defines;
     for (const std::string& define : plan.defines)
-        if (define.starts_with("SLOTS=") || define == "BAKE") defines.push_back(define);
+        if (define.starts_with("SLOTS=") || define == "BAKE" || define == "CONTRACT" || define == "FAST_MATH")
+            defines.push_back(define);
     return withDevice(defines, device);
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 namespace spectrad {
 
@@ -64,6 +65,53 @@ void addBaselines(const Contestant& base, std::vector<Contestant>& out) {
     }
 }
 
+/// All that a material looks up, for changing.
+std::vector<TextureUse*> textureUses(Material& material) {
+    std::vector<TextureUse*> uses;
+    if (material.diffuse && material.diffuse->texture) uses.push_back(&*material.diffuse->texture);
+    if (material.diffuse && material.diffuse->select) uses.push_back(&material.diffuse->select->map);
+    if (material.emission && material.emission->texture) uses.push_back(&*material.emission->texture);
+    for (Fluorescence& part : material.fluorescence)
+        if (part.mask) uses.push_back(&*part.mask);
+    if (material.relief) uses.push_back(&material.relief->map);
+    return uses;
+}
+
+void addTextureFilters(const Scene& scene, const Contestant& base, std::vector<Contestant>& out) {
+    std::vector<TextureFilter> own;
+    for (Material material : scene.materials)
+        for (const TextureUse* use : textureUses(material))
+            own.push_back(use->filter);
+    for (const auto& [filter, called, what] :
+         {std::tuple{TextureFilter::nearest, "nearest", "textures: the nearest texel"},
+          {TextureFilter::bilinear, "bilinear", "textures: bilinear"},
+          {TextureFilter::mip, "mip", "textures: a pyramid of means (mip)"}}) {
+        // What the scene does already is another row.
+        if (std::all_of(own.begin(), own.end(), [f = filter](TextureFilter o) { return o == f; })) continue;
+        Contestant c = varied(base, Knob::texture, fmt::format("texture-{}", called), what);
+        c.filter = filter;
+        out.push_back(c);
+    }
+}
+
+void addArithmetic(const Contestant& base, std::vector<Contestant>& out) {
+    Contestant c = varied(base, Knob::arithmetic, "contracted",
+                          "kernels whose a*b + c may be fused (FP_CONTRACT ON, -cl-mad-enable)");
+    c.switches = {"CONTRACT"};
+    out.push_back(c);
+    c = varied(base, Knob::arithmetic, "fast-math", "kernels built with -cl-fast-relaxed-math");
+    c.switches = {"CONTRACT", "FAST_MATH"};
+    out.push_back(c);
+}
+
+Scene withFilter(const Scene& scene, TextureFilter filter) {
+    Scene changed = scene;
+    for (Material& material : changed.materials)
+        for (TextureUse* use : textureUses(material))
+            use->filter = filter;
+    return changed;
+}
+
 }  // namespace
 
 std::string_view name(Knob knob) {
@@ -74,6 +122,10 @@ std::string_view name(Knob knob) {
             return "samples";
         case Knob::fresnel:
             return "fresnel";
+        case Knob::texture:
+            return "texture";
+        case Knob::arithmetic:
+            return "arithmetic";
         case Knob::output:
             return "output";
         case Knob::baseline:
@@ -111,6 +163,8 @@ std::vector<Contestant> contestants(const Scene& scene, const Wavelengths& grid,
         c.schlick = true;
         out.push_back(c);
     }
+    addTextureFilters(scene, base, out);
+    addArithmetic(base, out);
     Contestant half = varied(base, Knob::output, "half", "bands kept as half floats (11 bits)");
     half.output.half = true;
     out.push_back(half);
@@ -118,6 +172,13 @@ std::vector<Contestant> contestants(const Scene& scene, const Wavelengths& grid,
         Contestant c = varied(base, Knob::output, fmt::format("bits-{}", bits),
                               fmt::format("{} significant bits of each float kept", bits));
         c.output.mantissaBits = bits;
+        out.push_back(c);
+    }
+    for (Compression compression : {Compression::none, Compression::zips, Compression::zip}) {
+        const std::string called(name(compression));
+        Contestant c =
+            varied(base, Knob::output, "exr-" + called, "EXR compression " + called + " (the others: piz)");
+        c.output.compression = compression;
         out.push_back(c);
     }
     for (double step : {1.0, 2.0, 5.0, 10.0, 20.0, 40.0})
@@ -181,7 +242,12 @@ std::optional<Entry> prepare(const Contestant& contestant, const Scene& scene, c
         case Method::spectral:
             break;
     }
-    entry.plan = planner(contestant.schlick ? withSchlick(scene) : scene, asked);
+    if (contestant.schlick)
+        entry.plan = planner(withSchlick(scene), asked);
+    else
+        entry.plan = planner(contestant.filter ? withFilter(scene, *contestant.filter) : scene, asked);
+    entry.plan.defines.insert(entry.plan.defines.end(), contestant.switches.begin(),
+                              contestant.switches.end());
     entry.weights = weightsOn(entry.plan.wavelengths, observer);
     return entry;
 }

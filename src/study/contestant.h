@@ -1,6 +1,7 @@
 // Ways to render a scene that trade time for accuracy, and the ones that other renderers take.
 #pragma once
 
+#include "image/cube.h"
 #include "render/plan.h"
 #include "render/settings.h"
 #include "study/three_channels.h"
@@ -15,13 +16,14 @@ namespace spectrad {
 class Library;
 
 /// What of a scene's rendering is varied.
-enum class Knob { bands, samples, fresnel, output, baseline };
+enum class Knob { bands, samples, fresnel, texture, arithmetic, output, baseline };
 [[nodiscard]] std::string_view name(Knob knob);
 
 /// How the finished bands are kept.
 struct OutputForm {
     bool half = false;
     int mantissaBits = 24;  ///< significant bits that are kept of a float, 8…24
+    Compression compression = Compression::piz;
     bool operator==(const OutputForm&) const = default;
 };
 
@@ -36,6 +38,8 @@ struct Contestant {
     Wavelengths wavelengths;
     int samples = 16;
     bool schlick = false;
+    std::optional<TextureFilter> filter;  ///< instead of the scene's own
+    std::vector<std::string> switches;    ///< of the kernels: "CONTRACT", "FAST_MATH" (see opencl/program.h)
     OutputForm output;
 };
 

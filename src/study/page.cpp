@@ -44,7 +44,7 @@ PlotSeries front(const Rows& rows) {
             return other != row && other->renderSeconds <= row->renderSeconds &&
                    other->deltaP99 < row->deltaP99;
         });
-        if (!beaten && row->knob != "samples")
+        if (!beaten && row->knob != "samples" && row->knob != "texture")
             series.points.push_back({row->renderSeconds, row->deltaP99, labelOf(*row), row->key});
     }
     std::sort(series.points.begin(), series.points.end(),
@@ -54,7 +54,7 @@ PlotSeries front(const Rows& rows) {
 
 std::string pareto(const Rows& rows) {
     Plot plot{"Time against error", "seconds to render", "ΔE00, 99 % of the pixels within", true, true, {}};
-    const char* knobs[] = {"bands", "baseline", "output", "fresnel"};
+    const char* knobs[] = {"bands", "baseline", "output", "fresnel", "texture", "arithmetic"};
     for (const char* knob : knobs) {
         PlotSeries series{knob, {}, false};
         for (const StudyRow* row : rows)
@@ -158,14 +158,18 @@ std::string base64(std::string_view bytes) {
 
 std::string pageOf(const PageHead& head, const StudyReport& report,
                    const std::map<std::string, std::string>& maps) {
-    std::string out = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" +
-                      escaped(head.scene) + ": speed against accuracy</title>\n" + style + "</head><body>\n";
+    std::string out =
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+        "img-src data:; style-src 'unsafe-inline'\"><title>" +
+        escaped(head.scene) + ": speed against accuracy</title>\n" + style + "</head><body>\n";
     out += fmt::format("<h1>{}: speed against accuracy</h1>\n<p>{}, {}; <code>{}</code></p>\n",
                        escaped(head.scene), escaped(head.size), escaped(head.device), escaped(head.command));
     out +=
         "<p>Each setting is held against the same scene at every nanometre from 360 to 830 nm (slit bands, "
         "the same "
-        "samples; numbers of samples against 64). ΔE00 is CIEDE2000 against the scene's first light at the "
+        "samples; numbers of samples and filters of textures against 64). ΔE00 is CIEDE2000 against the "
+        "scene's first light at the "
         "reference's brightest luminance. Band error and spectral angle are of the bands themselves, against "
         "the "
         "averages that a slit records at those wavelengths. Times are the better of two on this machine, "

@@ -114,7 +114,13 @@ class Study {
     }
 
   private:
-    static constexpr int manySamples = 64;
+    /// What is under trial is spectral, and judged with its own samples, unless it is the samples or a
+    /// texture's filter, which does samples' work.
+    static int referenceSamples(const Contestant& contestant) {
+        constexpr int manySamples = 64;
+        return contestant.knob == Knob::samples || contestant.knob == Knob::texture ? manySamples
+                                                                                    : contestant.samples;
+    }
 
     Entry referenceEntry(const Condition& condition, int samples) const {
         Contestant contestant;
@@ -124,7 +130,7 @@ class Study {
     }
 
     const ChannelImage& referenceFor(Condition& condition, const Contestant& contestant) {
-        const int samples = contestant.knob == Knob::samples ? manySamples : contestant.samples;
+        const int samples = referenceSamples(contestant);
         const auto found = condition.reference.find(samples);
         if (found != condition.reference.end()) return found->second;
         TrialSettings once;
@@ -144,9 +150,12 @@ class Study {
         Contestant exact = contestant;
         exact.wavelengths.projection = Projection::slit;
         exact.schlick = false;
+        exact.filter.reset();
+        exact.switches.clear();
         exact.output = {};
-        if (contestant.knob == Knob::samples) exact.samples = manySamples;
+        exact.samples = referenceSamples(contestant);
         const bool itself = contestant.wavelengths.projection == Projection::slit && !contestant.schlick &&
+                            !contestant.filter && contestant.switches.empty() &&
                             contestant.output == OutputForm{} && contestant.samples == exact.samples;
         TrialSettings how;
         how.rounds = 1;

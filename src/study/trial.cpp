@@ -22,7 +22,7 @@ CubeInfo infoOf(const Plan& plan) {
 }
 
 void keep(const OutputForm& form, std::vector<float>& values) {
-    if (form == OutputForm{}) return;
+    if (!form.half && form.mantissaBits >= 24) return;
     // Beyond half's range a file could not hold the value either (the writer says so).
     for (float& value : values)
         value = form.half ? static_cast<float>(Imath::half(value)) : keepBits(value, form.mantissaBits);
@@ -73,6 +73,7 @@ Trial tryOut(const Device& device, const Entry& entry, const OutputForm& form,
     if (!settings.file.empty()) {
         WriteOptions options;
         options.half = form.half;
+        options.compression = form.compression;
         const Stopwatch start;
         const auto writer = createExr(settings.file, trial.cube.info, options);
         writer->write(plan.view.height, trial.cube.values.data(), preview.data());

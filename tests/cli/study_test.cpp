@@ -1,5 +1,6 @@
 // spectrad study: what it leaves in its folder, and what is known of the methods it measures.
 #include "cli/support.h"
+#include "image/picture.h"
 
 using cli::Folder;
 using cli::Outcome;
@@ -65,10 +66,45 @@ TEST_CASE("study: slits follow a lamp of lines, points and few wavelengths do no
     CHECK(rowOf(study, "half").at("band_relative_max") <= 1e-3);
     CHECK(rowOf(study, "half").at("band_relative_max") > 0x1p-14);
     CHECK(rowOf(study, "half").at("file_bytes") < rowOf(study, "bits-20").at("file_bytes"));
+    // Compression is lossless: only files and times differ.
+    CHECK(rowOf(study, "exr-none").at("deltae00") == rowOf(study, "slit-5nm").at("deltae00"));
+    CHECK(rowOf(study, "exr-none").at("file_bytes") > rowOf(study, "slit-5nm").at("file_bytes"));
+    // Other arithmetic than the kernels': last bits, no colours. (Whether a compiler uses its freedom is its
+    // own affair.)
+    for (const char* build : {"contracted", "fast-math"}) {
+        CHECK(rowOf(study, build).at("band_relative_max") < 1e-4);
+        CHECK(mean(study, build) == Approx(mean(study, "slit-5nm")).margin(1e-3));
+    }
+    for (const json& row : study.at("rows"))
+        CHECK(row.at("knob") != "texture");
     for (const char* name : {"index.html", "results.csv", "results.json"})
         CHECK(cli::fs::exists(folder / "out" / name));
     CHECK(json::parse(cli::bytesOf(folder / "out" / "results.json")).at("rows").size() ==
           study.at("rows").size());
+}
+
+TEST_CASE("study: where textures are, their other filters are measured against many samples") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    // A chequer of 64 x 64 texels on 8 x 8 pixels, seen at one sample: only means can tell its grey.
+    spectrad::Picture8 picture{64, 64, 3, {}};
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x)
+            for (int c = 0; c < 3; ++c)
+                picture.pixels.push_back((x / 2 + y / 2) % 2 ? 230 : 20);
+    spectrad::writePng(folder / "chequer.png", picture);
+    folder.write("wall.xml", R"(<scene version="1"><wavelengths from="400" to="700" step="20"/>
+      <material name="m"><diffuse texture="chequer.png"/></material>
+      <node><plane size="2 2" material="m"/></node>
+      <light type="directional" direction="0 0 -1" spectrum="illuminants/D65" illuminance="100 lx"/>
+      <camera name="c" type="orthographic" height="2" look-from="0 0 5" look-at="0 0 0" size="8x8"/></scene>)");
+    const json study =
+        run(folder, {"study", "wall.xml", "-o", "out", "--json", "--quiet", "--samples", "1"}).json();
+    CHECK(rowOf(study, "texture-mip").at("knob") == "texture");
+    CHECK(mean(study, "texture-nearest") > 5);
+    CHECK(mean(study, "texture-mip") < 0.2 * mean(study, "texture-nearest"));
+    for (const json& row : study.at("rows"))
+        CHECK(row.at("setting") != "texture-bilinear");  // is what the scene does
 }
 
 TEST_CASE("study goes on where it was stopped, and begins anew when the scene has changed") {

@@ -47,6 +47,9 @@ TEST_CASE("the page asks nobody for anything and tells each row and what was lef
                                     {{"scene/cie1931-2/slit-10nm", "\x89PNG"}});
     for (const char* reach : {"http:", "https:", "src=\"/", "<script", "<link", "@import", "url("})
         CHECK(page.find(reach) == std::string::npos);
+    // Nor could it, where a browser keeps the policy that it states before anything else.
+    const size_t policy = page.find("default-src 'none'; img-src data:; style-src 'unsafe-inline'");
+    CHECK(policy < page.find("<title>"));
     CHECK(page.find("&lt;chart&gt;.xml") != std::string::npos);
     CHECK(page.find("41 bands, slit every 10 nm") != std::string::npos);
     CHECK(page.find("data:image/png;base64,iVBORw==") != std::string::npos);
