@@ -120,6 +120,7 @@ out/%.exr out/%.png: scenes/models/%.dae $(PROGRAM) $(SPECTRA) | out
 	$(call RENDER,$*)
 out/%-FL11.exr out/%-FL11.png: scenes/%.xml $(PROGRAM) $(SPECTRA) | out
 	$(call RENDER,$*-FL11,$(FL11))
+out/relief.exr out/relief.png: $(wildcard scenes/reliefs/*.png)
 out/pavilion.exr out/pavilion.png: scenes/models/pavilion.gltf
 out:
 	mkdir out

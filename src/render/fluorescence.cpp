@@ -152,10 +152,6 @@ void FluorescentBase::takeDiagonal(const Fluorescence& part, const Material& mat
     black_ = false;
 }
 
-double FluorescentBase::amplified(double nm) const {
-    return inside_ == 0 ? 1 : 1 / (1 - base_.at(nm) * inside_);
-}
-
 Curve FluorescentBase::reflectance() const {
     if (inside_ == 0) return base_;
     const double r = inside_;
@@ -225,9 +221,12 @@ Curve FluorescentBase::glow(const Bispectral& part, const Curve& light) const {
         double value = 0;
         for (size_t i = 0; i < irradiance.size(); ++i)
             value += part.value[row][i] * irradiance[i];
-        sum.push_back(value * (1 - inside_) * amplified(part.emission[row]));
+        sum.push_back(value * (1 - inside_));
     }
-    return Curve::table(part.emission, sum, Outside::zero);
+    // D is linear between its rows; what the coat makes of it has the base's own shape in between.
+    Curve sent = Curve::table(part.emission, std::move(sum), Outside::zero);
+    if (inside_ == 0) return sent;
+    return Curve::combined({std::move(sent), gain}, [](std::span<const double> v) { return v[0] * v[1]; });
 }
 
 }  // namespace spectrad

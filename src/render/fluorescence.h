@@ -90,7 +90,6 @@ class FluorescentBase {
     [[nodiscard]] FluorophoreFigures figuresOf(const Bispectral& part) const;
     [[nodiscard]] Curve glow(const Separable& part, const Curve& light) const;
     [[nodiscard]] Curve glow(const Bispectral& part, const Curve& light) const;
-    [[nodiscard]] double amplified(double nm) const;
 
     Curve base_;
     double inside_;

@@ -1,9 +1,8 @@
 // Fluorophores in a texture under a coat. With R = ρ (1 − r) / (1 − ρ r), what the coat leaves of a texel's
 // reflectance ρ, they absorb x (1 − R), and what they send out is multiplied by 1 + R r / (1 − r) on its way
 // through the coat: a product of two functions of the texel, at two wavelengths. It is worked out texel by
-// texel, as an image of its own whose bands are the emission's shares at the texture's wavelengths. Between
-// these both functions are linear here: at most their values, so that no energy is gained, and the same where
-// the texel is flat.
+// texel, as an image of its own whose bands are the emission's shares at the texture's wavelengths, and at as
+// many places between them as bring both functions, taken as polynomials through these, within a tolerance.
 #include "render/cumulative.h"
 #include "render/fluorescence.h"
 #include "render/term_table.h"
@@ -20,7 +19,28 @@ namespace spectrad {
 
 namespace {
 
-/// Σ weight · value over a texture's nodes.
+/// Of both functions' values. What a texel takes in and sends out is a product of the two.
+constexpr double tolerance = 3e-5;
+
+/// The places between a texture's wavelengths that its texels are known at.
+struct Nodes {
+    std::vector<double> nm;  ///< the texture's
+    int steps = 1;           ///< of each interval
+    [[nodiscard]] size_t count() const { return nodeCount(nm, steps); }
+    [[nodiscard]] Curve curve(size_t n) const { return nodeCurve(nm, steps, n); }
+    /// Where curve() is not 0, within a range if there is one.
+    [[nodiscard]] std::pair<double, double> support(
+        size_t n, const std::optional<std::pair<double, double>>& range = {}) const {
+        auto [from, to] = nodeSupport(nm, steps, n);
+        if (range) {
+            from = std::clamp(from, range->first, range->second);
+            to = std::clamp(to, range->first, range->second);
+        }
+        return {from, to};
+    }
+};
+
+/// Σ weight · value over nodes.
 struct NodeSum {
     std::vector<std::pair<size_t, double>> weights;
     [[nodiscard]] double of(const std::vector<double>& values) const {
@@ -55,49 +75,48 @@ Curve curveOf(const Cumulative& taken) {
 
 /// What is absorbed at a node below all of another's is known when that one sends out; only where the two
 /// overlap does it grow along with the emission, and needs a band of its own.
-Glow glowOf(const FluorescentBase::Separable& part, const Curve& light, const std::vector<double>& nm,
-            double inside) {
+Glow glowOf(const FluorescentBase::Separable& part, const Curve& light, const Nodes& nodes, double inside) {
     Glow glow;
-    const size_t nodes = nm.size();
     const double factor = part.factor * (1 - inside);
-    // What is absorbed and what is sent out beside less than a millionth of all of it counts for nothing.
-    constexpr double negligible = 1e-6;
-    const std::array<const Curve*, 1> all{&part.emission};
-    const double allEmitted = integrate(all);
-    double allTaken = 0;
+    // What is absorbed and what is sent out beside less than a billionth of all of it counts for nothing.
+    constexpr double negligible = 1e-9;
+    const std::array<const Curve*, 1> emission{&part.emission};
+    const double allEmitted = integrate(emission);
+    const auto emitted = part.emission.range(), excited = part.excitation.range();
+    const Cumulative everything(std::vector{part.excitation, wavelength()}, light, excited);
+    const auto ends = [](const std::pair<double, double>& range) {
+        return std::isfinite(range.first) && std::isfinite(range.second);
+    };
     std::vector<Cumulative> taken;
-    const auto excited = part.excitation.range();
-    for (size_t t = 0; t < nodes; ++t) {
-        auto within = nodeSupport(nm, 1, t);
-        if (excited) {
-            within.first = std::clamp(within.first, excited->first, excited->second);
-            within.second = std::clamp(within.second, excited->first, excited->second);
-        }
-        const bool ends = std::isfinite(within.first) && std::isfinite(within.second);
-        taken.emplace_back(std::vector{part.excitation, nodeCurve(nm, 1, t), wavelength()}, light,
-                           ends ? std::optional(within) : std::nullopt);
-        allTaken += taken.back().total();
+    std::vector<bool> takes;
+    for (size_t t = 0; t < nodes.count(); ++t) {
+        const auto within = nodes.support(t, excited);
+        taken.emplace_back(std::vector{part.excitation, nodes.curve(t), wavelength()}, light,
+                           ends(within) ? std::optional(within) : std::nullopt);
+        takes.push_back(everything.upTo(within.second) - everything.upTo(within.first) >
+                        negligible * everything.total());
     }
-    for (size_t s = 0; s < nodes; ++s) {
-        const auto [from, to] = nodeSupport(nm, 1, s);
-        const Curve hat = nodeCurve(nm, 1, s);
-        const std::array<const Curve*, 2> emitted{&part.emission, &hat};
-        if (integrate(emitted) < negligible * allEmitted) continue;
+    for (size_t s = 0; s < nodes.count(); ++s) {
+        const auto [from, to] = nodes.support(s);
+        const auto within = nodes.support(s, emitted);
+        if (ends(within) &&
+            integrate(emission, within.first, within.second) < negligible * std::abs(allEmitted))
+            continue;
+        const Curve hat = nodes.curve(s);
         const NodeSum out{{{s, 1.0}}};
         NodeSum before;
         double most = 0;
-        for (size_t t = 0; t < nodes; ++t) {
-            const auto [begin, end] = nodeSupport(nm, 1, t);
-            const double total = taken[t].total();
-            if (total <= negligible * allTaken || (begin >= to && !part.antiStokes)) continue;
+        for (size_t t = 0; t < nodes.count(); ++t) {
+            const auto [begin, end] = nodes.support(t);
+            if (!takes[t] || (begin >= to && !part.antiStokes)) continue;
             if (end <= from || part.antiStokes) {
-                before.weights.emplace_back(t, total);
-                most += std::abs(total);
+                before.weights.emplace_back(t, taken[t].total());
+                most += std::abs(taken[t].total());
             } else {
                 glow.bands.push_back({out, {{{t, 1.0}}}, {part.emission, hat, curveOf(taken[t])}, factor});
             }
         }
-        if (before.weights.empty()) continue;
+        if (most == 0) continue;
         for (auto& weight : before.weights)
             weight.second /= most;
         glow.bands.push_back({out, before, {part.emission, hat}, factor * most});
@@ -105,53 +124,59 @@ Glow glowOf(const FluorescentBase::Separable& part, const Curve& light, const st
     return glow;
 }
 
-/// A band for each row of the matrix.
-Glow glowOf(const FluorescentBase::Bispectral& part, const Curve& light, const std::vector<double>& nm,
-            double inside) {
+/// A band for each row of the matrix and each node within its hat.
+Glow glowOf(const FluorescentBase::Bispectral& part, const Curve& light, const Nodes& nodes, double inside) {
     Glow glow;
     glow.absorbs = false;
-    const size_t nodes = nm.size(), columns = part.bandCentre.size();
+    const size_t count = nodes.count(), columns = part.bandCentre.size();
     std::vector<Curve> hats;
-    for (size_t t = 0; t < nodes; ++t)
-        hats.push_back(nodeCurve(nm, 1, t));
+    for (size_t t = 0; t < count; ++t)
+        hats.push_back(nodes.curve(t));
     std::vector<std::vector<double>> irradiance(columns);
     for (size_t i = 0; i < columns; ++i)
-        for (size_t t = 0; t < nodes; ++t) {
+        for (size_t t = 0; t < count; ++t) {
             const std::array<const Curve*, 2> each{&light, &hats[t]};
             irradiance[i].push_back(integrate(each, part.bandFrom[i], part.bandTo[i]) / part.width(i));
         }
     for (size_t row = 0; row < part.emission.size(); ++row) {
-        std::vector<double> weights(nodes, 0.0);
+        std::vector<double> weights(count, 0.0);
         for (size_t i = 0; i < columns; ++i)
-            for (size_t t = 0; t < nodes; ++t)
+            for (size_t t = 0; t < count; ++t)
                 weights[t] += part.value[row][i] * irradiance[i][t];
         const double most = std::accumulate(weights.begin(), weights.end(), 0.0,
                                             [](double sum, double w) { return sum + std::abs(w); });
         if (most == 0) continue;
-        NodeSum in, out;
-        for (size_t t = 0; t < nodes; ++t) {
+        NodeSum in;
+        for (size_t t = 0; t < count; ++t)
             if (weights[t] != 0) in.weights.emplace_back(t, weights[t] / most);
-            const double share = hats[t].at(part.emission[row]);
-            if (share != 0) out.weights.emplace_back(t, share);
-        }
         std::vector<double> value(part.emission.size(), 0.0);
         value[row] = 1;
-        glow.bands.push_back(
-            {out, in, {Curve::table(part.emission, std::move(value), Outside::zero)}, most * (1 - inside)});
+        const Curve sentOut = Curve::table(part.emission, std::move(value), Outside::zero);
+        const double from = part.emission[row > 0 ? row - 1 : row],
+                     to = part.emission[row + 1 < part.emission.size() ? row + 1 : row];
+        for (size_t t = 0; t < count; ++t) {
+            const auto [begin, end] = nodes.support(t);
+            if (begin < to && end > from)
+                glow.bands.push_back({{{{t, 1.0}}}, in, {sentOut, hats[t]}, most * (1 - inside)});
+        }
     }
     return glow;
 }
 
 /// The image of a glow over a texture whose texels lie at `texels`.
-Texels imageOf(const Glow& glow, const float* texels, const sd_texture& texture, double inside) {
+Texels imageOf(const Glow& glow, const Nodes& nodes, const float* texels, const sd_texture& texture,
+               double inside) {
     Texels image{texture.width, texture.height, static_cast<int>(glow.bands.size()), {}};
-    const auto bands = static_cast<size_t>(texture.bands);
-    std::vector<double> absorbed(bands), amplified(bands);
+    const auto bands = static_cast<size_t>(texture.bands), steps = static_cast<size_t>(nodes.steps);
+    std::vector<double> absorbed(nodes.count()), amplified(nodes.count());
     const size_t count = static_cast<size_t>(texture.width) * static_cast<size_t>(texture.height);
     image.texels.reserve(count * glow.bands.size());
     for (size_t i = 0; i < count; ++i, texels += bands) {
-        for (size_t t = 0; t < bands; ++t) {
-            const double rho = texels[t];
+        for (size_t t = 0; t < nodes.count(); ++t) {
+            const size_t band = t / steps;
+            const double further = static_cast<double>(t % steps) / nodes.steps;
+            const double rho =
+                further > 0 ? texels[band] * (1 - further) + texels[band + 1] * further : texels[band];
             absorbed[t] = std::max(0.0, 1 - rho) / (1 - rho * inside);
             amplified[t] = 1 / (1 - rho * inside);
         }
@@ -169,14 +194,15 @@ void TermBuilder::addTexturedGlow(const Material& material, const Base& base, co
     black.diffuse.reset();
     const FluorescentBase parts(black, base.inside, notes_);
     const sd_texture texture = world_.textures[image.number - 1];
+    const Nodes nodes{image.nm, stepsFor(world_, texture, base.inside, 0, tolerance)};
     const auto add = [&](const LightGroup& group, const Glow& glow, size_t number) {
         if (glow.bands.empty()) return;
         const auto& mask = material.fluorescence[number].mask;
         sd_lobe lobe = beginBase(base);
         if (mask) lobe.strength = strengthTexture(*mask);
-        lobe.texture =
-            addTexels(world_, imageOf(glow, world_.texels.data() + texture.first, texture, base.inside),
-                      *material.diffuse->texture);
+        lobe.texture = addTexels(
+            world_, imageOf(glow, nodes, world_.texels.data() + texture.first, texture, base.inside),
+            *material.diffuse->texture);
         for (const GlowBand& band : glow.bands)
             for (const LightGroup& other : groups_) {
                 // An image of what glows belongs to one light.
@@ -194,9 +220,9 @@ void TermBuilder::addTexturedGlow(const Material& material, const Base& base, co
     };
     for (const LightGroup& group : groups_) {
         for (const auto& part : parts.separable())
-            add(group, glowOf(part, group.spectrum, image.nm, base.inside), part.number);
+            add(group, glowOf(part, group.spectrum, nodes, base.inside), part.number);
         for (const auto& part : parts.bispectral())
-            add(group, glowOf(part, group.spectrum, image.nm, base.inside), part.number);
+            add(group, glowOf(part, group.spectrum, nodes, base.inside), part.number);
     }
 }
 

@@ -22,7 +22,7 @@ double interpolationError(double low, double high, double r, int p, int degree) 
     // |Π (rho − node)| is largest in the outermost interval: below degree! spacing^(degree + 1) / 4.
     for (int k = 0; k <= degree; ++k)
         distance *= spacing / (z - low - spacing * k) * (k == 0 ? 0.25 : k);
-    const double scale = (1 - r) / r * (p == 2 ? z * z : z);
+    const double scale = (1 - r) / r * std::pow(z, p);
     const double value = std::pow(high, p) * (1 - r) / (1 - high * r);
     return value > 0 ? scale * distance / (z - high) / value : 0;
 }
@@ -96,8 +96,7 @@ Curve nodeCurve(const std::vector<double>& nm, int steps, size_t node) {
                           isFirst || isLast ? std::nullopt : std::optional(std::pair(begin, end)));
 }
 
-int stepsFor(const World& world, const sd_texture& t, double inside, int power) {
-    constexpr double tolerance = 1e-6;
+int stepsFor(const World& world, const sd_texture& t, double inside, int power, double tolerance) {
     constexpr int most = 16 * highestDegree;
     if (inside <= 0) return 1;
     int steps = 1;
