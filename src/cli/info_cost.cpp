@@ -17,7 +17,8 @@ Json described(const CostReport& report, const Plan& plan) {
     for (const FeatureCost& f : report.features)
         features.push_back({{"feature", f.feature},
                             {"instead", f.instead},
-                            {"seconds", f.seconds},
+                            {"seconds", f.time.seconds},
+                            {"seconds_uncertainty", f.time.uncertainty},
                             {"bytes_per_strip", f.stripBytes},
                             {"terms", f.terms},
                             {"deltae00", {{"mean", f.deltaMean}, {"p99", f.deltaP99}, {"max", f.deltaMax}}}});
@@ -39,13 +40,13 @@ void printTable(const CostReport& report, const Plan& plan) {
                     report.width, report.height, plan.wavelengths.size(), plan.samples,
                     rounded(1e3 * report.seconds, 3), static_cast<double>(report.stripBytes) / (1 << 20),
                     report.white.name, rounded(report.white.xyz[1], 5)));
-    printText(fmt::format("{:<18} {:>8} {:>9} {:>6} {:>9} {:>9} {:>9}  instead\n", "feature", "ms", "MiB",
-                          "terms", "mean dE00", "99 %", "max"));
+    printText(fmt::format("{:<18} {:>8} {:>8} {:>9} {:>6} {:>9} {:>9} {:>9}  instead\n", "feature", "ms", "±",
+                          "MiB", "terms", "mean dE00", "99 %", "max"));
     for (const FeatureCost& f : report.features)
-        printText(fmt::format("{:<18} {:>8} {:>9.1f} {:>6} {:>9} {:>9} {:>9}  {}\n", f.feature,
-                              rounded(1e3 * f.seconds, 3), static_cast<double>(f.stripBytes) / (1 << 20),
-                              f.terms, rounded(f.deltaMean, 3), rounded(f.deltaP99, 3),
-                              rounded(f.deltaMax, 3), f.instead));
+        printText(fmt::format("{:<18} {:>8} {:>8} {:>9.1f} {:>6} {:>9} {:>9} {:>9}  {}\n", f.feature,
+                              rounded(1e3 * f.time.seconds, 3), rounded(1e3 * f.time.uncertainty, 2),
+                              static_cast<double>(f.stripBytes) / (1 << 20), f.terms, rounded(f.deltaMean, 3),
+                              rounded(f.deltaP99, 3), rounded(f.deltaMax, 3), f.instead));
     for (const std::string& line : report.leftOut)
         printText(line + "\n");
 }

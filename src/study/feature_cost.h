@@ -19,9 +19,18 @@ struct Simpler {
 [[nodiscard]] std::vector<Simpler> simplerScenes(const Scene& scene, const Plan& plan,
                                                  TextureLoader& textures);
 
+/// Of rendering: with a feature − without it. `uncertainty`: two standard errors; a difference within it is
+/// 0.
+struct TimeDifference {
+    double seconds = 0, uncertainty = 0;
+};
+/// The median of pairs measured in turn, and what their scatter leaves of it in doubt.
+[[nodiscard]] TimeDifference timeDifference(const std::vector<double>& with,
+                                            const std::vector<double>& without);
+
 struct FeatureCost {
     std::string feature, instead;
-    double seconds = 0;           ///< of rendering: with it − without it
+    TimeDifference time;
     std::int64_t stripBytes = 0;  ///< the same of a strip's buffers on the device
     std::int64_t triangles = 0, terms = 0;
     double deltaMean = 0, deltaP99 = 0, deltaMax = 0;  ///< ΔE00 between the pictures with and without it
