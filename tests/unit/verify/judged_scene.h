@@ -8,11 +8,16 @@
 
 #include <catch2/catch.hpp>
 
+#include <functional>
+
 namespace spectrad::test {
 
 struct JudgedScene {
-    explicit JudgedScene(const std::string& text)
-        : scene(loadScene(folder.write("scene.xml", text), library, {}, notes)),
+    /// `before` writes what the scene reads.
+    explicit JudgedScene(
+        const std::string& text,
+        const std::function<void(const TemporaryFolder&)>& before = [](const auto&) {})
+        : scene((before(folder), loadScene(folder.write("scene.xml", text), library, {}, notes))),
           observer(standardObserver(library)) {}
 
     [[nodiscard]] Plan plan(const RenderSettings& settings = {}) {
