@@ -31,6 +31,7 @@ Look carried(const Look& old, const Subject& before, const Subject& fresh, const
     Look made = fresh.firstLook();
     const Look first = before.firstLook();
     made.eye = old.eye;
+    made.film = old.film;
     for (LightSetting& light : made.lights)
         for (size_t i = 0; i < first.lights.size(); ++i) {
             const LightSetting &was = first.lights[i], &now = old.lights[i];

@@ -2,6 +2,7 @@
 // observer. A comparison has two.
 #pragma once
 
+#include "camera/film.h"
 #include "colour/observe.h"
 #include "scene/scene.h"
 
@@ -21,10 +22,11 @@ struct LightSetting {
 };
 
 struct Look {
-    std::vector<LightSetting> lights;        ///< one for each light of the scene, in its order
-    std::map<Index, Spectrum> reflectances;  ///< of materials whose <diffuse> reflectance is another
-    std::shared_ptr<const Eye> eye;
-    std::uint64_t version = 0;  ///< another number after each change
+    std::vector<LightSetting> lights;            ///< one for each light of the scene, in its order
+    std::map<Index, Spectrum> reflectances;      ///< of materials whose <diffuse> reflectance is another
+    std::shared_ptr<const Eye> eye;              ///< in front of a film the layers, X Y Z their channels
+    std::shared_ptr<const FilmProjection> film;  ///< nothing for an eye or a camera
+    std::uint64_t version = 0;                   ///< another number after each change
 };
 
 }  // namespace spectrad::view

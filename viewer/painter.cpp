@@ -1,6 +1,7 @@
 #include "viewer/painter.h"
 
-#include "colour/white.h"
+#include "camera/film_picture.h"
+#include "colour/image_white.h"
 #include "viewer/cube_subject.h"
 #include "viewer/scene_subject.h"
 
@@ -12,19 +13,32 @@ namespace spectrad::view {
 Painter::Painter(std::unique_ptr<Subject> subject, const Library& library, bool restricted)
     : subject_(std::move(subject)),
       resolver_(library, subject_->file().parent_path(), restricted, unsaid_),
-      standard_(standardObserver(library)) {}
+      standard_(std::make_shared<const Eye>(standardEye(library))) {}
 
 White Painter::whiteOf(const Wish& wish, const Look& look) {
+    if (look.film) return projectionWhite(*look.film);
+    if (isOfImage(wish.white)) return whiteOfImage(wish.white, subject_->xyz(look));
     if (wish.white.empty()) return subject_->white(look);
     return whiteFor(wish.white, look.eye->detector, look.eye->matrix, resolver_, {});
+}
+
+ChannelImage Painter::developed(const Wish& wish, const Look& look, ChannelImage channels) {
+    const double metered = meteredBy(*look.film, channels, wish.white);
+    return projected(*look.film, std::move(channels), metered, -wish.ev);
+}
+
+ChannelImage Painter::seen(const Wish& wish, const Look& look) {
+    ChannelImage xyz = subject_->xyz(look);
+    return look.film ? developed(wish, look, std::move(xyz)) : xyz;
 }
 
 Rendering Painter::rendering(const Wish& wish, const Look& look) {
     Rendering made;
     made.base.adaptation = wish.adaptation;
     made.base.white = whiteOf(wish, look);
-    made.base.exposure = {wish.ev, wish.automatic};
-    made.base.display = wish.displayFor(look, standard_);
+    // A film is exposed, its projection is not.
+    if (!look.film) made.base.exposure = {wish.ev, wish.automatic};
+    made.base.display = wish.displayFor(look, standard_->detector);
     made.degree = wish.degree;
     made.tone = wish.tone;
     made.gamut = wish.mapping;
@@ -46,15 +60,41 @@ Rendering Painter::mixedRendering(const Wish& wish) {
     return made;
 }
 
-Shown Painter::shown(const Wish& wish, const Rendering& how) {
-    return {renderingMatrix(how, *wish.heldLuminance * std::exp2(-wish.ev)), how.base.display, how.tone,
-            how.gamut};
+Shown Painter::shown(const Wish& wish, const Look& look, const Rendering& how) {
+    const double luminance = look.film ? how.base.white.xyz[1] : *wish.heldLuminance * std::exp2(-wish.ev);
+    return {renderingMatrix(how, luminance), how.base.display, how.tone, how.gamut};
 }
 
 double Painter::measuredLuminance(const Wish& wish) {
-    DevelopSettings made = rendering(wish, wish.looks[0]).base;
+    const Look& look = wish.looks[0].film ? wish.looks[1] : wish.looks[0];
+    DevelopSettings made = rendering(wish, look).base;
+    if (look.film) return made.white.xyz[1];
     made.exposure.ev = 0;
-    return displayWhiteLuminance(subject_->xyz(wish.looks[0]), made);
+    return displayWhiteLuminance(subject_->xyz(look), made);
+}
+
+void Painter::paintLook(const Wish& wish, const Look& look, Codes& codes) {
+    const Shown how = shown(wish, look, rendering(wish, look));
+    if (look.film)
+        encodeCodes(seen(wish, look), how, codes);
+    else
+        subject_->show(look, how, codes);
+}
+
+void Painter::paintMixture(const Wish& wish, Codes& codes) {
+    const Look &a = wish.looks[0], &b = wish.looks[1];
+    if (!a.film && !b.film) {
+        subject_->showMixed(a, b, wish.mix, shown(wish, a, mixedRendering(wish)), codes);
+        return;
+    }
+    if (a.eye->detector.name != b.eye->detector.name)
+        throw UsageError("a mixture of light on a film wants both looks on the same film");
+    ChannelImage mixed = subject_->xyz(a);
+    const ChannelImage other = subject_->xyz(b);
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t i = 0; i < mixed.pixels(); ++i)
+            mixed.plane[c][i] = std::lerp(mixed.plane[c][i], other.plane[c][i], wish.mix);
+    encodeCodes(developed(wish, a, std::move(mixed)), shown(wish, a, rendering(wish, a)), codes);
 }
 
 void Painter::paintBands(Painting& painting) {
@@ -62,16 +102,17 @@ void Painter::paintBands(Painting& painting) {
     BandPicture drawn = wish.bands;
     if (wish.picture == Picture::band) drawn.bands.fill(drawn.bands[0]);
     drawn.ev = wish.ev;
-    drawn.display = wish.displayFor(wish.looks[0], standard_);
+    drawn.display = wish.displayFor(wish.looks[0], standard_->detector);
     dynamic_cast<CubeSubject&>(*subject_).showBands(drawn, painting.left);
     wish.bands.white = drawn.white;
 }
 
 void Painter::paintDifference(Painting& painting) {
     const Wish& wish = painting.wish;
-    const White seenAgainst = withLuminance(whiteOf(wish, wish.looks[0]), *wish.heldLuminance);
-    painting.difference =
-        colourDifference(subject_->xyz(wish.looks[0]), subject_->xyz(wish.looks[1]), seenAgainst.xyz);
+    const Look &a = wish.looks[0], &b = wish.looks[1];
+    if (!a.film != !b.film) throw UsageError("a colour difference wants both looks on film, or neither");
+    const White seenAgainst = withLuminance(whiteOf(wish, a), *wish.heldLuminance);
+    painting.difference = colourDifference(seen(wish, a), seen(wish, b), seenAgainst.xyz);
     const std::vector<float>& map = painting.difference->map;
     const std::vector<std::uint8_t> rgb = falseColours(map, wish.differenceTop);
     painting.left.resize(map.size());
@@ -94,7 +135,10 @@ void Painter::paint(const Wish& wish, Painting& painting, const std::stop_token&
     const bool finished =
         !scene || asked.stand.samples.value_or(scene->finalSamples()) >= scene->finalSamples();
     const auto keep = [&](size_t which) {
-        if (finished) painting.stills[which] = subject_->still(asked.looks[which]);
+        if (!finished) return;
+        Look look = asked.looks[which];
+        if (look.film) look.eye = standard_;  // as measure prints X Y Z of a film
+        painting.stills[which] = subject_->still(look);
     };
     subject_->heed(stop);
     subject_->stand(asked.stand);
@@ -106,16 +150,16 @@ void Painter::paint(const Wish& wish, Painting& painting, const std::stop_token&
     if (!asked.heldLuminance) asked.heldLuminance = measuredLuminance(asked);
     switch (asked.mode) {
         case Mode::single:
-            subject_->show(a, shown(asked, rendering(asked, a)), painting.left);
+            paintLook(asked, a, painting.left);
             break;
         case Mode::split:
-            subject_->show(a, shown(asked, rendering(asked, a)), painting.left);
+            paintLook(asked, a, painting.left);
             keep(0);
-            subject_->show(b, shown(asked, rendering(asked, b)), painting.right);
+            paintLook(asked, b, painting.right);
             keep(1);
             return;
         case Mode::mixture:
-            subject_->showMixed(a, b, asked.mix, shown(asked, mixedRendering(asked)), painting.left);
+            paintMixture(asked, painting.left);
             break;
         case Mode::difference:
             paintDifference(painting);

@@ -35,20 +35,25 @@ class Painter {
     void paint(const Wish& wish, Painting& painting, const std::stop_token& stop = {});
 
     [[nodiscard]] White whiteOf(const Wish& wish, const Look& look);
+    /// XYZ of all pixels, absolute; of a film what its projector shows.
+    [[nodiscard]] ChannelImage seen(const Wish& wish, const Look& look);
     /// The luminance, cd/m², that is shown as display white before ± EV, from the picture as observe does.
     [[nodiscard]] double measuredLuminance(const Wish& wish);
 
   private:
     [[nodiscard]] Rendering rendering(const Wish& wish, const Look& look);
     [[nodiscard]] Rendering mixedRendering(const Wish& wish);
-    [[nodiscard]] Shown shown(const Wish& wish, const Rendering& how);
+    [[nodiscard]] Shown shown(const Wish& wish, const Look& look, const Rendering& how);
+    [[nodiscard]] ChannelImage developed(const Wish& wish, const Look& look, ChannelImage channels);
+    void paintLook(const Wish& wish, const Look& look, Codes& codes);
+    void paintMixture(const Wish& wish, Codes& codes);
     void paintBands(Painting& painting);
     void paintDifference(Painting& painting);
 
     std::unique_ptr<Subject> subject_;
     Notes unsaid_;
     SpectrumResolver resolver_;
-    Detector standard_;
+    std::shared_ptr<const Eye> standard_;  ///< CIE 1931
 };
 
 }  // namespace spectrad::view

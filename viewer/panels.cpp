@@ -2,6 +2,7 @@
 #include "viewer/panels.h"
 
 #include "base/error.h"
+#include "viewer/observers.h"
 
 #include <fmt/format.h>
 
@@ -152,8 +153,9 @@ void prepare(PanelState& state, Session& session) {
         if (entry.name.starts_with("illuminants/")) state.illuminants.push_back(entry.name);
         if (entry.quantity == Quantity::reflectance) state.reflectances.push_back(entry.name);
         if (entry.name.starts_with("displays/")) state.displays.push_back(entry.name);
-        if (entry.quantity == Quantity::sensitivity) state.observers.push_back(entry.name);
     }
+    const SceneSubject* scene = session.aboutScene();
+    state.observers = observerNames(session.library(), scene ? &scene->scene() : nullptr);
     state.displays.insert(state.displays.begin(), {"srgb", "p3", "rec2020"});
     const Detector standard = standardObserver(session.library());
     state.locus.emplace(standard);

@@ -45,6 +45,8 @@ void drawExposure(Session& session, PanelState& state) {
     const bool bands = session.picture != Picture::observer;
     if (bands)
         ImGui::TextDisabled("%.4g %s shown as white", session.bands.white[0], session.about().unit().c_str());
+    else if (session.look(session.edited).film)
+        ImGui::TextDisabled("of the film; its meter sets the rest");
     else if (session.heldLuminance)
         ImGui::TextDisabled("%.4g cd/m² shown as white", *session.heldLuminance * std::exp2(-session.ev));
 }

@@ -8,9 +8,9 @@ namespace spectrad::view {
 
 class SceneSubject::SceneStill : public Still {
   public:
-    SceneStill(std::shared_ptr<const Table> terms, Device reader, std::shared_ptr<const SeenTerms> seen,
-               Wavelengths grid, int width, int height)
-        : Still(terms->eye),
+    SceneStill(std::shared_ptr<const Eye> eye, std::shared_ptr<const Table> terms, Device reader,
+               std::shared_ptr<const SeenTerms> seen, Wavelengths grid, int width, int height)
+        : Still(std::move(eye)),
           terms_(std::move(terms)),
           reader_(std::move(reader)),
           seen_(std::move(seen)),
@@ -63,8 +63,8 @@ class SceneSubject::SceneStill : public Still {
 std::shared_ptr<Still> SceneSubject::still(const Look& look) {
     std::shared_ptr<const Table> terms = table(look);
     resolve();
-    return std::make_shared<SceneStill>(std::move(terms), reader_, live_->seen(), wavelengths_, view_.width,
-                                        view_.height);
+    return std::make_shared<SceneStill>(look.eye, std::move(terms), reader_, live_->seen(), wavelengths_,
+                                        view_.width, view_.height);
 }
 
 }  // namespace spectrad::view

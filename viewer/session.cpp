@@ -56,6 +56,7 @@ std::string Session::state(const Wish& wish, std::uint64_t changes) const {
 void Session::takeBack() {
     if (painting_.left.empty()) return;
     looks = painting_.wish.looks;
+    white = painting_.wish.white;  // a pixel's, where there is no light now
     watched_.watch(files());
 }
 

@@ -51,6 +51,8 @@ class Session : public Wish {
     [[nodiscard]] SceneSubject* scene() { return dynamic_cast<SceneSubject*>(&subject()); }
     [[nodiscard]] CubeSubject* cube() { return dynamic_cast<CubeSubject*>(&subject()); }
     [[nodiscard]] White whiteOf(const Look& look) { return atHand().whiteOf(*this, look); }
+    /// XYZ of the picture, absolute.
+    [[nodiscard]] ChannelImage seen(const Look& look) { return atHand().seen(*this, look); }
 
     [[nodiscard]] const Library& library() const { return library_; }
     [[nodiscard]] Look& look(int which) { return looks.at(static_cast<size_t>(which)); }

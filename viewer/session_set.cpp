@@ -1,5 +1,7 @@
 // What can be changed by word: "lamp.spectrum=illuminants/A", "exposure=auto".
 #include "base/text.h"
+#include "colour/image_white.h"
+#include "viewer/observers.h"
 #include "viewer/session.h"
 
 #include <fmt/format.h>
@@ -102,8 +104,10 @@ void Session::setWhite(const std::string& text) {
     try {
         // A white with a luminance says how bright the picture is shown; a scene's own lights have none.
         const Eye& eye = *look(edited).eye;
-        if (text.empty() ? !aboutScene()
-                         : whiteFor(text, eye.detector, eye.matrix, resolver_, {}).hasLuminance) {
+        if (isOfImage(text) && waits) (void)whiteOf(look(edited));
+        if (isOfImage(text) ? isPlace(text)
+            : text.empty()  ? !aboutScene()
+                            : whiteFor(text, eye.detector, eye.matrix, resolver_, {}).hasLuminance) {
             heldLuminance.reset();
             automatic = false;
         }
@@ -168,11 +172,12 @@ void Session::set(const std::string& assignment) {
     const std::vector<std::pair<std::string, std::function<void()>>> settings{
         {"observer",
          [&] {
-             const Detector detector = detectorFor(value, resolver_, {});
              Look changed = look(edited);
-             changed.eye = std::make_shared<const Eye>(Eye{detector, towardsXyz(detector, standard_)});
+             setObserver(changed, value, resolver_, library_);
              touch(changed);
              check(changed);
+             // A film's picture is as bright as its projector.
+             if (!changed.film != !look(edited).film) heldLuminance.reset();
              look(edited) = std::move(changed);
          }},
         {"adapt", [&] { adaptation = parseAdaptation(value); }},

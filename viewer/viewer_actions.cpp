@@ -98,7 +98,7 @@ void Viewer::play(const Action& action) {
             return;
         case Action::Kind::channels: {
             (void)picture();
-            const ChannelImage xyz = session_.subject().xyz(session_.look(0));
+            const ChannelImage xyz = session_.seen(session_.look(0));
             const std::vector<std::string> names{"X", "Y", "Z"};
             writeChannelsExr(action.text, xyz.width, xyz.height, names, floatPlanes(xyz, names),
                              {{"observer", session_.look(0).eye->detector.name}, {"unit", "cd.m^-2 (Y)"}});

@@ -1,12 +1,13 @@
 #include "cli/observation.h"
 
 #include "base/text.h"
+#include "camera/film_picture.h"
 #include "colour/develop.h"
-#include "scene/load.h"
+#include "colour/image_white.h"
+#include "render/scene_detector.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,36 +18,10 @@ namespace {
 
 constexpr const char* daylight = "illuminants/D65";
 
-bool isPlace(const std::string& white) {
-    return startsWith(white, "at:");
-}
-
 bool isNumbers(const std::string& white) {
     const std::vector<std::string_view> parts = split(white, ',');
     return std::all_of(parts.begin(), parts.end(),
                        [](std::string_view part) { return parseDouble(part).has_value(); });
-}
-
-constexpr const char* ofImage = "image";
-
-/// The mean of all pixels, as if the world were grey.
-White meanOf(const ChannelImage& image) {
-    Triple mean{};
-    for (size_t k = 0; k < 3; ++k)
-        for (const double value : image.plane[k])
-            mean[k] += value / static_cast<double>(image.pixels());
-    if (!(mean[1] > 0)) throw InputError("the white 'image' is the mean of a black image");
-    return {ofImage, {mean[0] / mean[1], 1, mean[2] / mean[1]}, false};
-}
-
-/// The pixel that "at:X,Y" names.
-White placed(const std::string& wanted, const ChannelImage& image) {
-    const std::vector<std::string_view> place = split(std::string_view(wanted).substr(3), ',');
-    const auto x = parseInteger(place[0]), y = place.size() == 2 ? parseInteger(place[1]) : std::nullopt;
-    if (!x || !y) throw UsageError("--white: '" + wanted + "' is not at:X,Y in pixels, (0,0) top left");
-    constexpr long long beyond = 1 << 30;  // outside every image, and inside int
-    return whiteAt(image, static_cast<int>(std::clamp(*x, -1LL, beyond)),
-                   static_cast<int>(std::clamp(*y, -1LL, beyond)));
 }
 
 }  // namespace
@@ -102,24 +77,8 @@ Detector Observation::wantedDetector(const ObserverArguments& arguments) {
         }
         return film_->film().layers;
     }
-    const size_t hash = observer.find(".xml#");
-    if (hash == std::string::npos) return detectorFor(observer, resolver_, {});
-    const std::string file = resolver_.findFile(observer.substr(0, hash + 4), {}).string(),
-                      name = observer.substr(hash + 5);
-    Notes unsaid;  // that a scene has no light is no concern of its detectors
-    const Scene scene = loadScene(file, library_, {}, unsaid);
-    std::vector<std::string> known;
-    for (const DetectorUse& use : scene.detectors) {
-        if (use.name == name) {
-            Detector detector = detectorFrom(use.sensitivity);
-            detector.name = observer;
-            return detector;
-        }
-        known.push_back(use.name);
-    }
-    throw InputError(SourceLocation{file},
-                     fmt::format("has no <detector name=\"{}\">{} (there are: {})", name,
-                                 didYouMean(name, known), fmt::join(known, ", ")));
+    if (std::optional<Detector> detector = sceneDetector(observer, resolver_, library_)) return *detector;
+    return detectorFor(observer, resolver_, {});
 }
 
 Observation::Observation(const ObserverArguments& arguments, const CubeInfo& info, Notes& notes)
@@ -136,7 +95,7 @@ Observation::Observation(const ObserverArguments& arguments, const CubeInfo& inf
         weights_ = weightsOn(info.wavelengths, detector_);
         return;
     }
-    const bool named = !wanted_.empty() && wanted_ != ofImage && !isPlace(wanted_) && !isNumbers(wanted_);
+    const bool named = !wanted_.empty() && !isOfImage(wanted_) && !isNumbers(wanted_);
     light_ = resolver_.resolve(named ? wanted_ : daylight, Role::light, {});
     weights_ = weightsOn(info.wavelengths, litBy(*light_, detector_, standard_));
 }
@@ -160,51 +119,29 @@ std::vector<double> Observation::channels(const std::vector<double>& bands) cons
 }
 
 double Observation::metered(const ChannelImage& channels) const {
-    if (!film_) return 1;
-    if (isPlace(wanted_)) return film_->metered(placed(wanted_, channels).xyz[1]);
-    const std::optional<Triple> stated = parseXyz(wanted_);
-    if (stated) return (*stated)[1];
-    std::vector<double> green = channels.plane[1];
-    const double light = green.empty() ? 0 : film_->metered(quantile(green, 0.99));
-    return light > 0 ? light : 1;
+    return film_ ? meteredBy(*film_, channels, wanted_) : 1;
 }
 
 Triple Observation::xyz(const std::vector<double>& channels, double metered) const {
     if (detector_.tristimulus) return {channels[0], channels[1], channels[2]};
-    if (!film_) return toXyz(toXyz_, channels);
-    const Triple exposures = film_->exposures(channels, metered, filmStops_);
-    return diagonal({diffuserY, diffuserY, diffuserY}) * film_->xyz(film_->densities(exposures));
+    return film_ ? projected(*film_, channels, metered, filmStops_) : toXyz(toXyz_, channels);
 }
 
 ChannelImage Observation::xyz(ChannelImage channels) const {
     if (film_) {
         const double white = metered(channels);
-        for (size_t i = 0; i < channels.pixels(); ++i) {
-            const Triple seen = xyz(
-                std::vector<double>{channels.plane[0][i], channels.plane[1][i], channels.plane[2][i]}, white);
-            for (size_t k = 0; k < 3; ++k)
-                channels.plane[k][i] = seen[k];
-        }
-        return channels;
+        return projected(*film_, std::move(channels), white, filmStops_);
     }
     return detector_.tristimulus ? std::move(channels) : toXyz(toXyz_, channels);
 }
 
-/// Who looks at a projection is adapted to its lamp, and takes the clearest film for white.
-White Observation::projectionWhite() const {
-    const CharacteristicCurve* curves = film_->film().curves.data();
-    const double clear = film_->xyz({curves[0].dmin, curves[1].dmin, curves[2].dmin})[1];
-    return withLuminance({film_->film().projectorName, film_->lamp(), false}, diffuserY * clear);
-}
-
 White Observation::whiteUnder(const std::string& name, const Curve& light) const {
-    return film_ ? projectionWhite() : whiteOf(name, light, detector_, toXyz_, {});
+    return film_ ? projectionWhite(*film_) : whiteOf(name, light, detector_, toXyz_, {});
 }
 
 White Observation::white(const ChannelImage& image) const {
-    if (film_) return projectionWhite();
-    if (isPlace(wanted_)) return placed(wanted_, image);
-    if (wanted_ == ofImage) return meanOf(image);
+    if (film_) return projectionWhite(*film_);
+    if (isOfImage(wanted_)) return whiteOfImage(wanted_, image);
     if (wanted_.empty() && !light_)
         return statedWhite(info_, detector_, toXyz_, standard_, resolver_, notes_);
     White white =

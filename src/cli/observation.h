@@ -69,7 +69,6 @@ class Observation {
     [[nodiscard]] White whiteUnder(const std::string& name, const Curve& light) const;
 
   private:
-    [[nodiscard]] White projectionWhite() const;
     [[nodiscard]] Detector wantedDetector(const ObserverArguments& arguments);
 
     std::string wanted_;  ///< --white

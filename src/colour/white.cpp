@@ -60,6 +60,18 @@ White whiteAt(const ChannelImage& xyz, int x, int y) {
     return {place, value, true};
 }
 
+std::optional<Triple> parseXyz(const std::string& text) {
+    const std::vector<std::string_view> parts = split(text, ',');
+    if (parts.size() != 3) return std::nullopt;
+    Triple triple{};
+    for (size_t i = 0; i < 3; ++i) {
+        const std::optional<double> value = parseDouble(parts[i]);
+        if (!value || *value < 0) return std::nullopt;
+        triple[i] = *value;
+    }
+    return triple[1] > 0 ? std::optional(triple) : std::nullopt;
+}
+
 White withLuminance(White white, double y) {
     if (white.hasLuminance) return white;
     for (double& c : white.xyz)

@@ -3,9 +3,13 @@
 
 #include "colour/observe.h"
 
+#include <optional>
 #include <string>
 
 namespace spectrad {
+
+/// Y of the perfect diffuser (or of no filter) where nothing but the light gives a scale.
+inline constexpr double diffuserY = 100;
 
 struct White {
     std::string name;     ///< as the user wrote it, or the spectrum's name
@@ -25,6 +29,9 @@ struct White {
 /// A pixel of an XYZ image, with its luminance. Throws InputError outside the image, and for a pixel that is
 /// black.
 [[nodiscard]] White whiteAt(const ChannelImage& xyz, int x, int y);
+
+/// "0.95,1,1.09": three numbers of which none is negative and the second is positive.
+[[nodiscard]] std::optional<Triple> parseXyz(const std::string& text);
 
 /// The same white at a luminance of `y` cd/m²; one that has a luminance keeps it.
 [[nodiscard]] White withLuminance(White white, double y);

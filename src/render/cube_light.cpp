@@ -20,18 +20,6 @@ bool needsLight(CubeKind kind) {
     return kind == CubeKind::reflectance || kind == CubeKind::transmittance;
 }
 
-std::optional<Triple> parseXyz(const std::string& text) {
-    const std::vector<std::string_view> parts = split(text, ',');
-    if (parts.size() != 3) return std::nullopt;
-    Triple triple{};
-    for (size_t i = 0; i < 3; ++i) {
-        const std::optional<double> value = parseDouble(parts[i]);
-        if (!value || *value < 0) return std::nullopt;
-        triple[i] = *value;
-    }
-    return triple[1] > 0 ? std::optional(triple) : std::nullopt;
-}
-
 Detector litBy(const Spectrum& light, const Detector& detector, const Detector& standard) {
     const std::array<const Curve*, 1> alone{&light.curve()};
     const double y = respond(detector.tristimulus ? detector : standard, alone)[1];

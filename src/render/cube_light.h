@@ -16,18 +16,14 @@ inline constexpr const char* whiteXyz = "whiteXYZ";  ///< its X,Y,Z with Y = 1, 
 
 [[nodiscard]] bool needsLight(CubeKind kind);
 
-/// Y of the perfect diffuser (or of no filter) under the lamp of a cube that needs one.
-inline constexpr double diffuserY = 100;
-/// A detector that looks at a ratio under the light: its channels of the perfect diffuser have Y = 100, as
-/// `standard` sees it where the detector is no observer. Throws InputError for a light that it does not see.
+/// A detector that looks at a ratio under the light: its channels of the perfect diffuser have Y = diffuserY,
+/// as `standard` sees it where the detector is no observer. Throws InputError for a light that it does not
+/// see.
 [[nodiscard]] Detector litBy(const Spectrum& light, const Detector& detector, const Detector& standard);
 
 /// The first light of the cube's scene as the detector sees it; E where the cube says nothing. A light that
 /// is in the library is seen by its spectrum, else its CIE 1931 chromaticity must do, with a warning.
 [[nodiscard]] White statedWhite(const CubeInfo& info, const Detector& detector, const XyzMatrix& toXyz,
                                 const Detector& standard, const SpectrumResolver& resolver, Notes& notes);
-
-/// "0.95,1,1.09": three numbers of which none is negative and the second is positive.
-[[nodiscard]] std::optional<Triple> parseXyz(const std::string& text);
 
 }  // namespace spectrad

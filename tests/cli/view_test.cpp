@@ -74,6 +74,48 @@ TEST_CASE("the viewer's picture is that of render and observe, within one code")
           bands(run(folder, {"measure", "b.exr", "--at", "60,40"}).out));
 }
 
+TEST_CASE("films, detectors of scenes and whites of the image: view shows what observe makes") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    folder.write("balls.xml", balls);
+    folder.write("rig.xml",
+                 "<scene version=\"1\"><detector name=\"left\" sensitivity=\"cameras/nikon-5100\"/></scene>");
+    folder.write(
+        "script.txt",
+        "set observer=generic-reversal\nscreenshot film.png\n"
+        "set white=illuminants/D65\nset exposure=0.5\nscreenshot darker.png\nset exposure=0\nset white=\n"
+        "set observer=rig.xml#left\nset exposure=auto\nscreenshot left.png\n"
+        "set observer=cie1931-2\nset white=at:20,30\nscreenshot place.png\n"
+        "set white=image\nset exposure=auto\nscreenshot grey.png\n"
+        "set mode=split\nset look=B\nset observer=generic-reversal\nset divider=0\n");
+    if (!canDraw(run(folder,
+                     {"view", "balls.xml", "--offscreen", "last.png", "--plain", "--script", "script.txt"})))
+        return;
+    REQUIRE(run(folder, {"render", "balls.xml", "-o", "a.exr", "-q"}).code == 0);
+    const auto observed = [&](const char* picture, std::vector<std::string> options) {
+        std::vector<std::string> words{"observe", "a.exr", "-o", "o.png", "-q"};
+        words.insert(words.end(), options.begin(), options.end());
+        REQUIRE(run(folder, words).code == 0);
+        CAPTURE(picture);
+        CHECK(codesApart(folder / picture, folder / "o.png") <= 1);
+    };
+    observed("film.png", {"--observer", "generic-reversal"});
+    observed("darker.png",
+             {"--observer", "generic-reversal", "--white", "illuminants/D65", "--exposure", "0.5"});
+    observed("left.png", {"--observer", "rig.xml#left"});
+    observed("place.png", {"--white", "at:20,30"});
+    observed("grey.png", {"--white", "image"});
+    observed("last.png", {"--observer", "generic-reversal"});
+    const auto refused = [&](const char* script, const char* why) {
+        folder.write("wrong.txt", script);
+        requireError(
+            run(folder, {"view", "balls.xml", "-q", "--offscreen", "x.png", "--script", "wrong.txt"}), 1,
+            why);
+    };
+    refused("set white=at:500,3\n", "outside");
+    refused("set observer=rig.xml#right\n", "left");
+}
+
 TEST_CASE("what view saves is what it showed: picture, scene, cube") {
     if (!cli::haveDevice()) return;
     const Folder folder;
