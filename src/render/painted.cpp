@@ -1,6 +1,7 @@
 // The diffuse part of materials, alone or under a coat: of one reflectance, of a texture's, of those that a
 // picture chooses; with fluorophores, which a picture may mask. Everything is linear in what images hold, or
 // made so.
+#include "base/text.h"
 #include "render/fluorescence.h"
 #include "render/picture_maps.h"
 #include "render/term_table.h"
@@ -227,6 +228,19 @@ void TermBuilder::addTexturedBase(const Material& material, const Base& base) {
     if (only_ == Only::fluorescence && material.fluorescence.empty()) return;
     const Image image = spectralTexture(*material.diffuse->texture);
     const sd_texture& texture = world_.textures[image.number - 1];
+    // A coat sends light back to the base again and again: above 1 / inside each time would bring more.
+    if (base.inside > 0 && !world_.texels.empty()) {
+        const auto first = world_.texels.begin() + static_cast<std::ptrdiff_t>(texture.first);
+        const double most =
+            *std::max_element(first, first + std::ptrdiff_t{texture.width} * texture.height * texture.bands);
+        if (most * base.inside >= 1)
+            throw InputError(
+                material.diffuse->texture->where,
+                fmt::format("{} has a reflectance of {}: under a coat, which sends light back to it, that "
+                            "is light without end (allowed: below {})",
+                            material.diffuse->texture->source, rounded(most, 4),
+                            rounded(1 / base.inside, 4)));
+    }
     const int steps = stepsFor(world_, texture, base.inside, 1);
     const size_t nodes = nodeCount(image.nm, steps);
     const bool together = base.inside <= 0;  // else what glows is not linear in the texel either

@@ -34,6 +34,7 @@ std::vector<double> meanOfTexels(const std::vector<float>& texels, size_t bands)
 
 SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& notes) {
     const CubeInfo& info = cube.info;
+    constexpr double reached = 1e-3;  // of a white diffuser, through its bands and back
     const bool reflectance = use.role == TextureRole::reflectance,
                irradiance = use.role == TextureRole::irradiance;
     const CubeKind wanted = reflectance  ? CubeKind::reflectance
@@ -60,7 +61,8 @@ SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& note
     std::vector<double> values(bands * width), area(bands, 1.0);
     for (size_t band = 0; averages && band < bands; ++band)
         area[band] = spectrad::band(grid, band).area();
-    size_t clipped = 0;
+    size_t clipped = 0, above = 0;
+    double most = 0;
     for (int row = 0; row < info.height; ++row) {
         const float* averagesOfRow = cube.row(row, 0);
         for (size_t band = 0; band < bands; ++band)
@@ -72,9 +74,15 @@ SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& note
             for (size_t x = 0; x < width; ++x) {
                 const double node = values[band * width + x];
                 if (reflectance && node < 0) ++clipped;
+                if (reflectance && node > 1 + reached) ++above, most = std::max(most, node);
                 texels[x * bands + band] = static_cast<float>(reflectance ? std::max(node, 0.0) : node);
             }
     }
+    if (above > 0 && !use.isPass())
+        notes.warn(use.where,
+                   fmt::format("{}: {} of {} reflectances lie above 1, up to {}{}: they count as they are",
+                               use.source, above, cube.values.size(), rounded(most, 4),
+                               most > 1.5 && most <= 150 ? " (percent? divide them by 100)" : ""));
     if (clipped > 0)
         notes.say(fmt::format("{}: {} of {} reflectances came out below zero between the bands: set to zero",
                               use.source, clipped, cube.values.size()));

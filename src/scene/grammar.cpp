@@ -48,7 +48,7 @@ std::vector<ElementRule> makeGrammar() {
         rule("scene", "version unit",
              "wavelengths1 spectrum material " + graph + " background1 detector pass region sweep"),
         rule("wavelengths", "from to step projection", "#text"),
-        rule("spectrum", "name! quantity relative value file column", "#text"),
+        rule("spectrum", "name! quantity relative noise value file column", "#text"),
         rule("material", "name!",
              "diffuse1 gloss1 specular1 conductor1 fluorescence emission1 normal1 bump1"),
         rule("diffuse", "reflectance texture select values roughness" + sampling, "choose"),

@@ -7,6 +7,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <unordered_map>
 
 namespace spectrad {
@@ -68,6 +70,30 @@ void stateQuantity(const Element& element, Spectrum& spectrum, Quantity stated) 
     spectrum.quantity = stated;
 }
 
+/// Measured shares are noisy: what lies up to `noise` outside 0…1 is set to the limit, and said; what lies
+/// farther outside is refused by whoever checks the role.
+void settleNoise(Spectrum& spectrum, double noise, const SourceLocation& where, Notes& notes) {
+    size_t settled = 0, all = 0;
+    double most = 0;
+    for (Curve& curve : spectrum.curves) {
+        const std::span<const double> nm = curve.sampleWavelengths();
+        if (nm.empty()) continue;
+        std::vector<double> values(curve.sampleValues().begin(), curve.sampleValues().end());
+        for (double& value : values) {
+            ++all;
+            const double limit = std::clamp(value, 0.0, 1.0), beyond = std::abs(value - limit);
+            if (beyond == 0 || beyond > noise) continue;
+            ++settled;
+            most = std::max(most, beyond);
+            value = limit;
+        }
+        curve = Curve::table({nm.begin(), nm.end()}, std::move(values), curve.outside());
+    }
+    if (settled > 0)
+        notes.say(fmt::format("{}: {} of {} values lie outside 0 … 1, by up to {}: set to the limit (noise)",
+                              where.str(), settled, all, rounded(most, 3)));
+}
+
 void readSpectrum(Reading& reading, const Element& element) {
     const std::string body = element.body();
     const bool hasBody = !trimmed(body).empty();
@@ -79,20 +105,26 @@ void readSpectrum(Reading& reading, const Element& element) {
 
     const Quantity stated = statedQuantity(element);
     const Role role = roleOf(stated);
+    const bool noisy = element.has("noise");
+    if (noisy && role != Role::reflectance && role != Role::transmittance)
+        element.fail("noise",
+                     "is of a share of light (allowed beside quantity=\"reflectance\" or \"transmittance\")");
+    const Role found = noisy ? Role::any : role;  // judged below
     Spectrum spectrum;
     if (element.has("value")) {
-        spectrum = reading.resolver.resolve(element.text("value"), role, element.where("value"));
+        spectrum = reading.resolver.resolve(element.text("value"), found, element.where("value"));
     } else if (hasBody) {
         spectrum = readBody(element, body);
         spectrum.text = element.text("name");
     } else {
-        spectrum = reading.resolver.resolveFile(element.text("file"), element.text("column"), role,
+        spectrum = reading.resolver.resolveFile(element.text("file"), element.text("column"), found,
                                                 element.where("file"));
     }
     for (const std::filesystem::path& file : spectrum.files)
         reading.files.add(file);
     stateQuantity(element, spectrum, stated);
     spectrum.relative = element.boolean("relative", spectrum.relative);
+    if (noisy) settleNoise(spectrum, element.number("noise", 0, zeroToOne), element.where(), reading.notes);
     spectrum = reading.resolver.checked(std::move(spectrum), role, element.where());
     reading.resolver.define(element.text("name"), std::move(spectrum), element.where());
 }

@@ -184,6 +184,30 @@ TEST_CASE(
     within(waves, wave, dye + R"( anti-stokes="true"/>)" + coats()[1]);
 }
 
+TEST_CASE("reflectances above 1 in an image are said; under a coat those without end are refused") {
+    if (!haveDevice()) return;
+    const Workshop shop;
+    shop.cube("bright.exr", {400, 500, 600, 700}, {0.5f, 1.2f, 0.5f, 0.5f});
+    shop.cube("percent.exr", {400, 500, 600, 700}, {50, 50, 60, 70});
+    const auto notesOf = [&](const std::string& lobes) {
+        Notes notes;
+        (void)makePlan(shop.scene(lobes, Workshop::window, "slit"), {}, library(), notes);
+        std::string all;
+        for (const std::string& line : notes.lines())
+            all += line + "\n";
+        return all;
+    };
+    CHECK(notesOf(textured).find("above 1") == std::string::npos);
+    CHECK(notesOf("<diffuse texture=\"bright.exr\"/>" + coats()[1])
+              .find("8 of 32 reflectances lie above 1, up to 1.2: they count as they are") !=
+          std::string::npos);
+    CHECK(notesOf("<diffuse texture=\"percent.exr\"/>").find("percent? divide them by 100") !=
+          std::string::npos);
+    const std::string refused = shop.refusal("<diffuse texture=\"percent.exr\"/>" + coats()[1]);
+    CHECK(refused.find("percent.exr has a reflectance of 70: under a coat") != std::string::npos);
+    CHECK(refused.find("scene.xml:1:") != std::string::npos);
+}
+
 TEST_CASE("fluorophores of every kind, rough surfaces, images, coats and two lamps go together") {
     if (!haveDevice()) return;
     const Workshop shop;

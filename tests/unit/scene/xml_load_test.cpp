@@ -383,3 +383,24 @@ TEST_CASE("a hundred thousand nodes with names load in a moment") {
     xml += "<camera/><background spectrum=\"constant:1\" scale=\"1\"/></scene>";
     CHECK(flatten(load(xml).scene).objects.size() == 100'000);
 }
+
+TEST_CASE("noise that is declared is set to the limit and said; more than that, or undeclared, is an error") {
+    const auto scene = [](const std::string& attributes, const std::string& pairs) {
+        return "<scene><spectrum name=\"s\" quantity=\"reflectance\" " + attributes + ">" + pairs +
+               "</spectrum><material name=\"m\"><diffuse reflectance=\"s\"/></material><node><sphere "
+               "material=\"m\"/></node></scene>";
+    };
+    const std::string measured = "400:-0.002 500:0.5 600:1.004 700:0.9";
+    const Loaded loaded = load(scene("noise=\"0.005\"", measured));
+    const Curve& curve = loaded.scene.materials.at(1).diffuse->reflectance->curve();
+    CHECK(curve.at(400) == 0);
+    CHECK(curve.at(500) == 0.5);
+    CHECK(curve.at(600) == 1);
+    CHECK(curve.at(750) == 0.9);  // held, as reflectances are
+    CHECK(hasNote(loaded.notes, "2 of 4 values lie outside 0 … 1, by up to 0.004: set to the limit (noise)"));
+    CHECK(refusal(scene("", measured)).find("value -0.002 at 400 nm (allowed: 0 … 1)") != std::string::npos);
+    CHECK(refusal(scene("noise=\"0.003\"", measured)).find("value 1.004 at 600 nm") != std::string::npos);
+    CHECK(
+        refusal("<scene><spectrum name=\"s\" quantity=\"power\" noise=\"0.1\">400:1 500:1</spectrum></scene>")
+            .find("is of a share of light") != std::string::npos);
+}
