@@ -35,7 +35,7 @@ test-sanitized: packages debug-configured
 ##extremes        numbers, faults and hostile input at their limits; a report in out/extremes.md (FUZZ_SECONDS=3600 HEAVY=1: hours)
 .PHONY: extremes
 FUZZ_SECONDS := 120
-FUZZERS := scene table words exr envi png
+FUZZERS := scene table words exr envi png jpeg
 extremes: packages packages-test build/build.ninja | out
 	cmake --build build --target spectrad
 	if command -v clang++ > /dev/null; then cmake --preset fuzz && cmake --build build-fuzz --target $(FUZZERS:%=fuzz_%); fi

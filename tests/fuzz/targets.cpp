@@ -146,11 +146,15 @@ void png(std::string_view bytes) {
     refused([&] { (void)readPng(path); });
 }
 
+void jpeg(std::string_view bytes) {
+    refused([&] { (void)decodeJpeg(bytes, "image.jpg"); });
+}
+
 }  // namespace
 
 const std::vector<Target>& targets() {
-    static const std::vector<Target> all{{"scene", scene}, {"table", table}, {"words", words},
-                                         {"exr", exr},     {"envi", envi},   {"png", png}};
+    static const std::vector<Target> all{{"scene", scene}, {"table", table}, {"words", words}, {"exr", exr},
+                                         {"envi", envi},   {"png", png},     {"jpeg", jpeg}};
     return all;
 }
 

@@ -14,7 +14,7 @@ struct Target {
     std::function<void(std::string_view bytes)> run;
 };
 /// scene: XML; table: text files of spectra, films; words: spectra, wavelengths, detectors, --set as options
-/// state them; exr, envi, png.
+/// state them; exr, envi, png, jpeg.
 [[nodiscard]] const std::vector<Target>& targets();
 
 }  // namespace spectrad::fuzz
