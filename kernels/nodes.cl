@@ -5,13 +5,15 @@
 
 /* Each work-item takes vectors of VW pixels in turn, its own rows of `scratch` (bands * VW doubles) for the sums on the way.
  * area: of each band's hat, nm (1 where values are points); forward: off[j - 1] / pivot[j - 1] for j > 0; off: ∫ h_j h_j+1, nm;
- * inverse: 1 / pivot; points != 0: values are taken as they are; first: texels before this strip's, in pixels. */
+ * inverse: 1 / pivot; points != 0: values are taken as they are; first: texels before this strip's, in pixels; above_zero != 0: what
+ * comes out below zero is set to it, and counted in the item's own element of `clipped`. */
 kernel void nodal_texels(global const float* cube, uint pitch, uint width, uint rows, uint bands, uint points, global const double* area,
                          global const double* forward, global const double* off, global const double* inverse,
-                         global double* scratch, uint items, ulong first, global float* texels) {
+                         global double* scratch, uint items, ulong first, uint above_zero, global ulong* clipped, global float* texels) {
     const uint item = (uint)get_global_id(0);
     if (item >= items) return;
     const uint across = (width + VW - 1) / VW;
+    ulong lost = 0;
     global double* own = scratch + (size_t)item * bands * VW;
     for (uint vector = item; vector < rows * across; vector += items) {
         const uint row = vector / across, x = vector % across * VW;
@@ -37,13 +39,16 @@ kernel void nodal_texels(global const float* cube, uint pitch, uint width, uint 
             }
             after = here;
             float value[VW];
-#if VW == 1
-            value[0] = (float)here;
-#else
-            vstore16(V_FLOAT(here), 0, value);
-#endif
+            if (above_zero) {
+                int below[VW];
+                VSTORE(V_INT(here < 0.0), below);
+                for (uint lane = 0; lane < lanes; ++lane) lost += below[lane] != 0;
+                here = here < 0.0 ? (vdouble)0.0 : here;
+            }
+            VSTORE(V_FLOAT(here), value);
             for (uint lane = 0; lane < lanes; ++lane)
                 to[(size_t)lane * bands + j] = value[lane];
         }
     }
+    if (lost > 0) clipped[item] += lost;
 }

@@ -14,7 +14,9 @@
 #include "image/picture.h"
 #include "render/columns.h"
 #include "render/node_cover.h"
+#include "render/passes.h"
 #include "render/renderer.h"
+#include "render/texels.h"
 #include "spectrum/library.h"
 
 #include <CLI/CLI.hpp>
@@ -24,6 +26,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 namespace spectrad {
 
@@ -68,7 +71,7 @@ Scene loadVariant(const std::string& file, const Library& library, const LoadOpt
 
 class Sweeping {
   public:
-    Sweeping(SweepArguments arguments, Console& console)
+    Sweeping(SweepArguments arguments, Console& console, std::optional<int> device)
         : arguments_(std::move(arguments)), console_(console), library_(Library::open()) {
         std::vector<SweepAxis> axes;
         for (const std::string& text : arguments_.vary)
@@ -83,6 +86,7 @@ class Sweeping {
             arguments_.scene.pass = asked->pass;
         }
         settings_ = renderSettings(arguments_.scene);
+        device_ = Device::open(device);
         planVariants(axes.empty() && asked ? asked->axes : axes);
         addLookers(scene, asked);
         std::vector<DetectorWeights> weights;
@@ -94,9 +98,9 @@ class Sweeping {
     }
 
     /// Renders once; returns the table.
-    Json run(const Device& device) {
-        coverRegions(device);
-        Renderer renderer(device, sweep_.plan);
+    Json run() {
+        coverRegions();
+        Renderer renderer(*device_, sweep_.plan);
         {
             ProgressBar bar("rendering", arguments_.quiet);
             columns_ = renderColumns(renderer, sweep_.plan, [&](double share) { bar.show(share); });
@@ -138,7 +142,10 @@ class Sweeping {
                                                   : scene.lights.front().emitter.spectrum.curve());
             separateLights(scene);
             Notes notes;
-            plans_.push_back(makePlan(scene, settings_, library_, notes));
+            // What passes show is part of what all variants must have in common: compared on the host.
+            PassTextures passes(scene, library_, *device_, settings_, notes);
+            plans_.push_back(makePlan(scene, settings_, library_, passes, notes));
+            fetchTexels(plans_.back().world);
             for (const std::string& line : notes.lines())
                 console_.notes().say(withoutMarks(line));
             if (plans_.back().as != PassKind::radiance)
@@ -197,7 +204,7 @@ class Sweeping {
     }
 
     /// Finds the regions' pixels: of a node those that it fills, since others show what stands behind, too.
-    void coverRegions(const Device& device) {
+    void coverRegions() {
         const View& view = sweep_.plan.view;
         const auto width = static_cast<size_t>(view.width), height = static_cast<size_t>(view.height);
         std::vector<std::vector<size_t>> filled;
@@ -205,7 +212,7 @@ class Sweeping {
             constexpr float full = 1 - 1e-5F;
             const size_t count = cover_->terms.bands;
             filled.resize(count);
-            Renderer(device, *cover_).render([&](int first, int rows, const float* values, const float*) {
+            Renderer(*device_, *cover_).render([&](int first, int rows, const float* values, const float*) {
                 for (size_t row = 0; row < static_cast<size_t>(rows); ++row)
                     for (size_t i = 0; i < count; ++i)
                         for (size_t x = 0; x < width; ++x)
@@ -270,7 +277,8 @@ class Sweeping {
 
     SweepArguments arguments_;
     Console& console_;
-    Notes unsaid_;  ///< of the scene itself; its variants say the same
+    std::optional<Device> device_;  ///< opened when the scene is known to be sound
+    Notes unsaid_;                  ///< of the scene itself; its variants say the same
     Library library_;
     RenderSettings settings_;
     std::vector<Plan> plans_;
@@ -290,13 +298,12 @@ ExitCode sweepScene(const SweepArguments& arguments) {
     Console console(arguments.quiet);
     const Stopwatch clock;
     const std::optional<int> number = deviceNumber(arguments.scene.device);
-    Sweeping sweep(arguments, console);
-    const Device device = Device::open(number);
+    Sweeping sweep(arguments, console, number);
     std::error_code failed;
     std::filesystem::create_directories(arguments.output, failed);
     if (failed) throw MachineError("cannot make the folder '" + arguments.output + "': " + failed.message());
     const double planned = clock.seconds();
-    const Json rows = sweep.run(device);
+    const Json rows = sweep.run();
     if (sweep.measures()) {
         const std::filesystem::path folder = arguments.output;
         writeFile(folder / "sweep.csv", sweepCsv(rows));

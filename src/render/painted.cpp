@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "render/fluorescence.h"
 #include "render/picture_maps.h"
+#include "render/resident.h"
 #include "render/term_table.h"
 #include "render/texels.h"
 #include "render/texture_nodes.h"
@@ -75,7 +76,9 @@ const TermBuilder::Image& TermBuilder::spectralTexture(const TextureUse& use) {
                                        "times as high as wide",
                                        use.source, texture.width, texture.height));
         const bool otherBands = use.role == TextureRole::radiance && texture.nm != grid_.nm;
-        if (otherBands || use.filter == TextureFilter::mip) texture.fetch();
+        const bool wantsLevels =
+            use.filter == TextureFilter::mip && texture.resident && texture.resident->levels == 1;
+        if (otherBands || wantsLevels) texture.fetch();
         if (otherBands) holdAboveZero(texture, use, notes_);
         const int bands = static_cast<int>(texture.nm.size());
         image.number =
@@ -227,12 +230,9 @@ void TermBuilder::addBase(const Material& material, const Base& base) {
 void TermBuilder::addTexturedBase(const Material& material, const Base& base) {
     if (only_ == Only::fluorescence && material.fluorescence.empty()) return;
     const Image image = spectralTexture(*material.diffuse->texture);
-    const sd_texture& texture = world_.textures[image.number - 1];
     // A coat sends light back to the base again and again: above 1 / inside each time would bring more.
-    if (base.inside > 0 && !world_.texels.empty()) {
-        const auto first = world_.texels.begin() + static_cast<std::ptrdiff_t>(texture.first);
-        const double most =
-            *std::max_element(first, first + std::ptrdiff_t{texture.width} * texture.height * texture.bands);
+    if (base.inside > 0) {
+        const double most = largestTexel(world_, image.number);
         if (most * base.inside >= 1)
             throw InputError(
                 material.diffuse->texture->where,
@@ -241,7 +241,7 @@ void TermBuilder::addTexturedBase(const Material& material, const Base& base) {
                             material.diffuse->texture->source, rounded(most, 4),
                             rounded(1 / base.inside, 4)));
     }
-    const int steps = stepsFor(world_, texture, base.inside, 1);
+    const int steps = stepsFor(world_, image.number, base.inside, 1);
     const size_t nodes = nodeCount(image.nm, steps);
     const bool together = base.inside <= 0;  // else what glows is not linear in the texel either
     Material black = material;

@@ -194,15 +194,15 @@ void TermBuilder::addTexturedGlow(const Material& material, const Base& base, co
     black.diffuse.reset();
     const FluorescentBase parts(black, base.inside, notes_);
     const sd_texture texture = world_.textures[image.number - 1];
-    const Nodes nodes{image.nm, stepsFor(world_, texture, base.inside, 0, tolerance)};
+    const std::vector<float> reflectances = finestLevel(world_, image.number);
+    const Nodes nodes{image.nm, stepsFor(world_, image.number, base.inside, 0, tolerance)};
     const auto add = [&](const LightGroup& group, const Glow& glow, size_t number) {
         if (glow.bands.empty()) return;
         const auto& mask = material.fluorescence[number].mask;
         sd_lobe lobe = beginBase(base);
         if (mask) lobe.strength = strengthTexture(*mask);
-        lobe.texture = addTexels(
-            world_, imageOf(glow, nodes, world_.texels.data() + texture.first, texture, base.inside),
-            *material.diffuse->texture);
+        lobe.texture = addTexels(world_, imageOf(glow, nodes, reflectances.data(), texture, base.inside),
+                                 *material.diffuse->texture);
         for (const GlowBand& band : glow.bands)
             for (const LightGroup& other : groups_) {
                 // An image of what glows belongs to one light.

@@ -136,7 +136,7 @@ void TermBuilder::addRough(const Material& material, Base& base, const Direction
         const Image image = spectralTexture(*material.diffuse->texture);
         lobe.texture = image.number;
         lobe.inside = static_cast<float>(1 - mean);
-        lobe.steps = stepsFor(world_, world_.textures[image.number - 1], steepest, 2);
+        lobe.steps = stepsFor(world_, image.number, steepest, 2);
         for (size_t part = 0; part < parts.size(); ++part) {
             const int steps = part == 0 ? 1 : lobe.steps;
             for (size_t t = 0; t < nodeCount(image.nm, steps); ++t)

@@ -46,6 +46,13 @@ Primaries primariesOf(const Screen& screen, const Wavelengths& grid, const Detec
     return primaries;
 }
 
+void noteClipped(const std::string& display, size_t clipped, size_t pixels, Notes& notes) {
+    if (clipped > 0)
+        notes.say(
+            fmt::format("display '{}': {:.2f} % of the pixels lie outside what it shows and were clipped",
+                        display, 100.0 * static_cast<double>(clipped) / static_cast<double>(pixels)));
+}
+
 }  // namespace
 
 Cube shownOn(const Screen& screen, Cube cube, const Library& library, Notes& notes) {
@@ -75,12 +82,67 @@ Cube shownOn(const Screen& screen, Cube cube, const Library& library, Notes& not
                                                              drive[2] * primaries.bands[2][band]);
         }
     }
-    if (clipped > 0)
-        notes.say(fmt::format(
-            "display '{}': {:.2f} % of the pixels lie outside what it shows and were clipped",
-            screen.primaries.text,
-            100.0 * static_cast<double>(clipped) / (static_cast<double>(width) * cube.info.height)));
+    noteClipped(screen.primaries.text, clipped, width * static_cast<size_t>(cube.info.height), notes);
     return cube;
+}
+
+ScreenStage::ScreenStage(const Device& device, const Screen& screen, const Wavelengths& grid,
+                         const Library& library, int width)
+    : device_(device),
+      name_(screen.primaries.text),
+      bands_(grid.size()),
+      channels_(0),
+      width_(width),
+      kernel_(Program(device, {"screen.cl"}, {"VW=" + std::to_string(device.body().vectorWidth())})
+                  .kernel("show_on_screen")) {
+    const Detector observer = standardObserver(library), detector = detectorFrom(screen.detector);
+    channels_ = detector.size();
+    const auto up = [&](DeviceArray<double>& array, const auto& rows) {
+        std::vector<double> all;
+        for (const auto& row : rows)
+            all.insert(all.end(), row.begin(), row.end());
+        array.upload(device, all.data(), all.size(), "a display's weights");
+    };
+    const Primaries primaries = primariesOf(screen, grid, observer);
+    up(weights_, weightsOn(grid, detector).weights);
+    up(matrix_, towardsXyz(detector, observer));
+    up(drives_, primaries.fromXyz);
+    up(primaries_, primaries.bands);
+    constexpr std::uint64_t nowhere = ~std::uint64_t{0}, none = 0;
+    bad_.upload(device, &nowhere, 1, "a pixel's place");
+    clipped_.upload(device, &none, 1, "a count");
+}
+
+void ScreenStage::show(const cl::Buffer& cube, int pitch, int firstRow, int rows) {
+    const auto lanes = static_cast<size_t>(device_.body().vectorWidth());
+    kernel_.set("cube", cube)
+        .set("pitch", static_cast<cl_uint>(pitch))
+        .set("width", static_cast<cl_uint>(width_))
+        .set("rows", static_cast<cl_uint>(rows))
+        .set("bands", static_cast<cl_uint>(bands_))
+        .set("first", static_cast<cl_uint>(firstRow))
+        .set("channels", static_cast<cl_uint>(channels_))
+        .set("weights", weights_.buffer())
+        .set("matrix", matrix_.buffer())
+        .set("drives", drives_.buffer())
+        .set("primaries", primaries_.buffer())
+        .set("bad", bad_.buffer())
+        .set("clipped", clipped_.buffer())
+        .run(static_cast<size_t>(pitch) / lanes * static_cast<size_t>(rows));
+}
+
+void ScreenStage::finish(size_t pixels, Notes& notes) {
+    std::uint64_t bad = 0, clipped = 0;
+    checked(device_.body(), "reading what a display clipped", [&] {
+        const cl::CommandQueue& queue = device_.body().queue;
+        queue.enqueueReadBuffer(bad_.buffer(), CL_TRUE, 0, sizeof bad, &bad);
+        queue.enqueueReadBuffer(clipped_.buffer(), CL_TRUE, 0, sizeof clipped, &clipped);
+    });
+    const auto width = static_cast<std::uint64_t>(width_);
+    if (bad != ~std::uint64_t{0})
+        throw InputError(
+            fmt::format("pixel ({}, {}) holds a value that is no finite number", bad % width, bad / width));
+    noteClipped(name_, clipped, pixels, notes);
 }
 
 }  // namespace spectrad

@@ -125,7 +125,7 @@ void Stages::uploadTextures() {
     size_t total = world.texels.size();
     for (const World::Resident& part : world.resident) {
         textures[part.texture].first = total;
-        total += part.texels->count();
+        total += part.texels->count(textures[part.texture].levels);
     }
     textures_.upload(device_, textures.data(), textures.size(), "the textures");
     if (showsOnePass(world)) return;
@@ -138,7 +138,7 @@ void Stages::uploadTextures() {
         for (const World::Resident& part : world.resident)
             queue.enqueueCopyBuffer(part.texels->values.buffer(), texels(), 0,
                                     textures[part.texture].first * sizeof(float),
-                                    part.texels->count() * sizeof(float));
+                                    part.texels->count(textures[part.texture].levels) * sizeof(float));
     });
 }
 

@@ -113,15 +113,40 @@ std::uint32_t addTexels(World& world, Texels image, const TextureUse& use) {
 }
 
 std::uint32_t addResident(World& world, std::shared_ptr<const ResidentTexels> image, const TextureUse& use) {
-    world.textures.push_back(entryFor(use, image->width, image->height, static_cast<int>(image->nm.size())));
+    sd_texture t = entryFor(use, image->width, image->height, static_cast<int>(image->nm.size()));
+    if (t.filter == SD_MIP) t.levels = image->levels;
+    world.textures.push_back(t);
     world.resident.push_back({world.textures.size() - 1, std::move(image)});
     return static_cast<std::uint32_t>(world.textures.size());
 }
 
+const ResidentTexels* residentOf(const World& world, std::uint32_t number) {
+    const auto found =
+        std::find_if(world.resident.begin(), world.resident.end(),
+                     [&](const World::Resident& part) { return part.texture + 1 == size_t{number}; });
+    return found == world.resident.end() ? nullptr : found->texels.get();
+}
+
+std::vector<float> finestLevel(const World& world, std::uint32_t number) {
+    if (const ResidentTexels* resident = residentOf(world, number)) return resident->read(1);
+    const sd_texture& t = world.textures[number - 1];
+    const auto first = world.texels.begin() + static_cast<std::ptrdiff_t>(t.first);
+    return {first, first + std::ptrdiff_t{t.width} * t.height * t.bands};
+}
+
+float largestTexel(const World& world, std::uint32_t number) {
+    if (const ResidentTexels* resident = residentOf(world, number)) return largestOn(*resident);
+    if (world.texels.empty()) return 0;
+    const sd_texture& t = world.textures[number - 1];
+    const auto first = world.texels.begin() + static_cast<std::ptrdiff_t>(t.first);
+    return *std::max_element(first, first + std::ptrdiff_t{t.width} * t.height * t.bands);
+}
+
 void fetchTexels(World& world) {
     for (const World::Resident& part : world.resident) {
-        world.textures[part.texture].first = world.texels.size();
-        const std::vector<float> texels = part.texels->read();
+        sd_texture& t = world.textures[part.texture];
+        t.first = world.texels.size();
+        const std::vector<float> texels = part.texels->read(t.levels);
         world.texels.insert(world.texels.end(), texels.begin(), texels.end());
     }
     world.resident.clear();

@@ -19,7 +19,7 @@ namespace spectrad {
 
 void SpectralTexture::fetch() {
     if (!resident) return;
-    texels = resident->read();
+    texels = resident->read(1);
     resident.reset();
 }
 
@@ -31,6 +31,16 @@ std::vector<double> meanOfTexels(const std::vector<float>& texels, size_t bands)
         value = value * static_cast<double>(bands) / static_cast<double>(texels.size());
     return mean;
 }
+
+namespace {
+
+void noteLost(const TextureUse& use, std::uint64_t lost, size_t of, Notes& notes) {
+    if (lost > 0)
+        notes.say(fmt::format("{}: {} of {} reflectances came out below zero between the bands: set to zero",
+                              use.source, lost, of));
+}
+
+}  // namespace
 
 SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& notes) {
     const CubeInfo& info = cube.info;
@@ -83,9 +93,18 @@ SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& note
                    fmt::format("{}: {} of {} reflectances lie above 1, up to {}{}: they count as they are",
                                use.source, above, cube.values.size(), rounded(most, 4),
                                most > 1.5 && most <= 150 ? " (percent? divide them by 100)" : ""));
-    if (clipped > 0)
-        notes.say(fmt::format("{}: {} of {} reflectances came out below zero between the bands: set to zero",
-                              use.source, clipped, cube.values.size()));
+    noteLost(use, clipped, cube.values.size(), notes);
+    return texture;
+}
+
+SpectralTexture textureFrom(std::shared_ptr<const ResidentTexels> image, const TextureUse& use,
+                            Notes& notes) {
+    SpectralTexture texture;
+    texture.width = image->width;
+    texture.height = image->height;
+    texture.nm = image->nm;
+    noteLost(use, image->lost, image->count(1), notes);
+    texture.resident = std::move(image);
     return texture;
 }
 

@@ -41,6 +41,9 @@ struct SpectralTexture {
 /// cube of another kind than the use asks for (only radiance carries fluorescence; only a reflectance takes a
 /// lamp).
 [[nodiscard]] SpectralTexture textureFrom(const Cube& cube, const TextureUse& use, Notes& notes);
+/// The same of a pass that stays on the device.
+[[nodiscard]] SpectralTexture textureFrom(std::shared_ptr<const ResidentTexels> image, const TextureUse& use,
+                                          Notes& notes);
 /// An RGB picture (sRGB), each colour times the tint lifted to a smooth reflectance (see lift.h), on
 /// wavelengths 380:780:10.
 [[nodiscard]] SpectralTexture textureFromPicture(const Picture8& picture, const Library& library,

@@ -1,5 +1,8 @@
 #include "render/texture_nodes.h"
 
+#include "render/resident.h"
+#include "render/texels.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,18 +16,24 @@ namespace {
 /// this degree (a multiple of it is that many pieces): higher ones through even nodes would swing.
 constexpr int highestDegree = 4;
 
-/// Error of the polynomial through `degree` + 1 even nodes on low…high in place of rho^p (1 − r) / (1 − rho
-/// r), as a share of its value at the high end. With z = 1 / r it is a multiple of 1 / (z − rho), whose error
-/// is Π (rho − node) / Π (z − node) / (z − rho).
-double interpolationError(double low, double high, double r, int p, int degree) {
-    const double z = 1 / r, spacing = (high - low) / degree;
-    double distance = 1;
+/// Whether the polynomial through `degree` + 1 even nodes on low…high is within `tolerance` of rho^p (1 − r)
+/// / (1 − rho r), as a share of its value at the high end. With z = 1 / r it is a multiple of 1 / (z − rho),
+/// whose error is Π (rho − node) / Π (z − node) / (z − rho). Multiplied out, so that kernels/steps.cl comes
+/// to the same answer to the bit.
+bool nearEnough(double low, double high, double z, int p, int degree, double tolerance) {
+    const double spacing = (high - low) / degree;
+    double error = p == 2   ? z * z
+                   : p == 1 ? z
+                            : 1.0,
+           bound = tolerance * (p == 2   ? high * high
+                                : p == 1 ? high
+                                         : 1.0);
     // |Π (rho − node)| is largest in the outermost interval: below degree! spacing^(degree + 1) / 4.
-    for (int k = 0; k <= degree; ++k)
-        distance *= spacing / (z - low - spacing * k) * (k == 0 ? 0.25 : k);
-    const double scale = (1 - r) / r * std::pow(z, p);
-    const double value = std::pow(high, p) * (1 - r) / (1 - high * r);
-    return value > 0 ? scale * distance / (z - high) / value : 0;
+    for (int k = 0; k <= degree; ++k) {
+        error *= spacing * (k == 0 ? 0.25 : k);
+        bound *= z - low - spacing * k;
+    }
+    return error <= bound;
 }
 
 /// The first and the last node of the pieces that a node belongs to.
@@ -96,14 +105,17 @@ Curve nodeCurve(const std::vector<double>& nm, int steps, size_t node) {
                           isFirst || isLast ? std::nullopt : std::optional(std::pair(begin, end)));
 }
 
-int stepsFor(const World& world, const sd_texture& t, double inside, int power, double tolerance) {
+int stepsFor(const World& world, std::uint32_t number, double inside, int power, double tolerance) {
     constexpr int most = 16 * highestDegree;
     if (inside <= 0) return 1;
+    if (const ResidentTexels* resident = residentOf(world, number))
+        return stepsOn(*resident, inside, power, tolerance, most);
+    const sd_texture& t = world.textures[number - 1];
     int steps = 1;
     const auto enough = [&](double low, double high) {
         const int degree = std::min(steps, highestDegree);
-        const double piece = (high - low) * degree / steps;  // the error is largest in the last one
-        return interpolationError(high - piece, high, inside, power, degree) <= tolerance;
+        // The error is largest in the last piece.
+        return nearEnough(high - (high - low) * degree / steps, high, 1 / inside, power, degree, tolerance);
     };
     const auto bands = static_cast<size_t>(t.bands);
     const size_t texels = static_cast<size_t>(t.width) * static_cast<size_t>(t.height);

@@ -23,8 +23,9 @@ namespace spectrad {
 [[nodiscard]] std::pair<double, double> nodeSupport(const std::vector<double>& nm, int steps, size_t node);
 
 /// How finely a texture's intervals are cut so that rho^power (1 − inside) / (1 − rho inside), which is not
-/// linear in them, is off by less than `tolerance` of its value.
-[[nodiscard]] int stepsFor(const World& world, const sd_texture& texture, double inside, int power,
+/// linear in them, is off by less than `tolerance` of its value. `texture`: 1 + its number. Throws
+/// MachineError.
+[[nodiscard]] int stepsFor(const World& world, std::uint32_t texture, double inside, int power,
                            double tolerance = 1e-6);
 
 }  // namespace spectrad

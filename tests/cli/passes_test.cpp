@@ -89,6 +89,64 @@ TEST_CASE("a chain of passes is bit for bit the same done by hand through files"
     REQUIRE(run(folder, {"compare", "saved.exr", "hand.exr", "--json", "-q"}).json().at("band_rmse") == 0);
 }
 
+TEST_CASE("what stays on the device – prints under coats, displays, their pyramids – is what files make") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    const auto text = [](const std::string& chart, const std::string& screen) {
+        std::string scene = R"(<scene version="1"><wavelengths from="400" to="700" step="10"/>
+  <material name="a"><diffuse reflectance="400:0.1 505:0.9 600:0.2 700:0.4"/></material>
+  <material name="b"><diffuse reflectance="400:0.6 500:0 544:0 546:0.9 560:0 700:0.97"/></material>
+  <material name="glazed"><diffuse texture="CHART" filter="mip"/><gloss ior="1.6" roughness="0.2"/></material>
+  <material name="plaster"><diffuse texture="CHART" filter="mip" roughness="20" wrap="repeat" scale="3"/></material>
+  <material name="near"><diffuse texture="CHART"/></material>
+  <material name="screen"><emission texture="SCREEN" filter="mip"/></material>
+  <node name="chart"><node translate="-0.5 0 0"><plane size="0.9 1" material="a"/></node><node translate="0.6 0 0"><sphere radius="0.5" material="b"/></node></node>
+  <node name="room"><node translate="-1.2 0 0" rotate="0 1 0 50"><plane size="2 2" material="glazed"/></node>
+    <node translate="1 0 0" rotate="0 1 0 -70"><plane size="2 2" material="plaster"/></node><node translate="0 -0.6 0.5"><plane size="0.5 0.5" material="near"/></node>
+    <node translate="0 0.4 -2"><plane size="0.7 0.5" material="screen"/></node></node>
+  <light name="lamp" type="point" position="0 1 3" spectrum="illuminants/FL11" intensity="90 cd"/>
+  <light name="sky" type="ambient" spectrum="illuminants/D65" luminance="4 cd/m2"/>
+  <detector name="eye" observer="observers/cie1931-2"/>
+  <camera name="front" type="orthographic" height="1.4" look-from="0 0 5" look-at="0 0 0" size="47x29"/>
+  <camera name="room" look-from="0 0 3" look-at="0 0 0" fov="50" size="60x40"/>
+  <pass name="chart" camera="front" of="chart" lights="sky" as="reflectance"/>
+  <pass name="photograph" camera="front" of="chart" lights="lamp" through="eye" display="displays/crt-brainard-1997" luminance="1 cd/m2"/>
+  <pass name="main" camera="room" of="room" lights="lamp sky"/></scene>)";
+        for (const auto& [mark, by] :
+             {std::pair<std::string, std::string>{"CHART", chart}, {"SCREEN", screen}})
+            for (size_t at = scene.find(mark); at != std::string::npos; at = scene.find(mark))
+                scene.replace(at, mark.size(), by);
+        return scene;
+    };
+    folder.write("chain.xml", text("pass:chart", "pass:photograph"));
+    folder.write("hand.xml", text("chart.exr", "photograph.exr"));
+    const auto done = [&](const std::vector<std::string>& arguments) { return run(folder, arguments); };
+    const auto chain = done({"render", "chain.xml", "-o", "chain.exr"});
+    INFO(chain.err);
+    REQUIRE(chain.code == 0);
+    for (const std::string name : {"chart", "photograph"})
+        REQUIRE(done({"render", "chain.xml", "-q", "--pass", name, "-o", name + ".exr"}).code == 0);
+    const auto hand = done({"render", "hand.xml", "-o", "hand.exr"});
+    REQUIRE(hand.code == 0);
+    requireSame(folder, "chain.exr", "hand.exr");
+    // What is said is the same too: pixels that the display clips, reflectances below zero between bands.
+    CHECK(chain.err.find("lie outside what it shows and were clipped") != std::string::npos);
+    CHECK(chain.err.find("reflectances came out below zero") != std::string::npos);
+    CHECK(hand.err.find("reflectances came out below zero") != std::string::npos);
+
+    // A pass that is saved as well stays where it is.
+    REQUIRE(done({"render", "chain.xml", "-q", "-o", "saved.exr", "--set", "pass:photograph.save=p.exr",
+                  "--set", "pass:chart.save=c.exr"})
+                .code == 0);
+    requireSame(folder, "p.exr", "photograph.exr");
+    requireSame(folder, "c.exr", "chart.exr");
+    requireSame(folder, "saved.exr", "hand.exr");
+    // Where there is nothing to divide by, a print is refused as a picture of its own is.
+    requireError(done({"render", "chain.xml", "-q", "--set", "pass:chart.lights=lamp", "--set",
+                       "light:lamp.position=0 0 -3"}),
+                 1, "pass 'chart': no light arrives at pixel");
+}
+
 TEST_CASE("a pass of another file is what rendering that file makes") {
     if (!cli::haveDevice()) return;
     const Folder folder;

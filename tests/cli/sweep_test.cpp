@@ -187,3 +187,44 @@ TEST_CASE("What is wrong with a scene's sweep is said with its place") {
         Contains("the node of region 'g' fills no pixel of this picture of 128 x 64"));
     CHECK_FALSE(std::filesystem::exists(folder / "out/sweep.csv"));
 }
+
+TEST_CASE(
+    "A sweep shows passes as a render does: a print under every lamp; a picture that changes is refused") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    const auto text = [](const std::string& worn, const std::string& as) {
+        return "<scene version=\"1\"><wavelengths from=\"400\" to=\"700\" step=\"20\"/>"
+               "<material name=\"ink\"><diffuse reflectance=\"charts/colorchecker/foliage\"/></material>"
+               "<material name=\"print\">" +
+               worn +
+               "</material><node name=\"chart\"><plane size=\"2 2\" material=\"ink\"/></node>"
+               "<node name=\"print\"><plane size=\"2 2\" material=\"print\"/></node>"
+               "<light name=\"key\" type=\"directional\" direction=\"0 0 -1\" "
+               "spectrum=\"illuminants/D65\" illuminance=\"1000 lx\"/>"
+               "<camera type=\"orthographic\" height=\"2\" look-from=\"0 0 5\" size=\"16x16\"/>"
+               "<pass name=\"chart\" of=\"chart\" lights=\"key\" as=\"" +
+               as + "\"/><pass name=\"main\" of=\"print\" lights=\"key\"/></scene>";
+    };
+    const std::vector<std::string> sweep{
+        "sweep",    "s.xml",      "-o",   "out",    "-q",
+        "--json",   "--format",   "none", "--vary", "key.spectrum=illuminants/D65|illuminants/A",
+        "--region", "all=4,4,8,8"};
+    folder.write("s.xml", text("<diffuse texture=\"pass:chart\"/>", "reflectance"));
+    const Outcome swept = run(folder, sweep);
+    INFO(swept.err);
+    REQUIRE(swept.code == 0);
+    for (const json& row : swept.json().at("regions")) {
+        const std::string lamp = row.at("variant");
+        REQUIRE(run(folder, {"render", "s.xml", "-q", "-o", "one.exr", "--set",
+                             "key.spectrum=illuminants/" + lamp.substr(lamp.rfind('_') + 1)})
+                    .code == 0);
+        const double y =
+            run(folder, {"measure", "one.exr", "--at", "8,8", "--json", "-q"}).json()[0].at("XYZ")[1];
+        CHECK(y > 10);
+        CHECK(row.at("XYZ")[1].get<double>() == Approx(y).epsilon(1e-5));
+    }
+    folder.write("s.xml", text("<emission texture=\"pass:chart\"/>", "radiance"));
+    const Outcome picture = run(folder, sweep);
+    CHECK(picture.code == 1);
+    CHECK(picture.err.find("changes more than spectra") != std::string::npos);
+}
