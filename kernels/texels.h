@@ -22,6 +22,7 @@ static lane_list lanes_of(vint mask) {
 typedef struct texel_taps {
     ulong at[4][VW]; /* first float of the texels: upper left, upper right, lower left, lower right */
     vfloat right, down;
+    float rights[VW], downs[VW]; /* the same, lane by lane */
     int single; /* nearest: the first alone */
 } texel_taps;
 
@@ -107,6 +108,8 @@ static void taps_at(sd_texture t, vint level, surface s, const lane_list* lanes,
         row0 = clamp(row0, (vint)0, last_row);
         row1 = clamp(row1, (vint)0, last_row);
     }
+    VSTORE(taps->right, taps->rights);
+    VSTORE(taps->down, taps->downs);
     int w[VW], c0[VW], c1[VW], r0[VW], r1[VW];
     VSTORE(width, w);
     VSTORE(column0, c0);
@@ -140,6 +143,16 @@ static vfloat tapped(global const float* texels, const texel_taps* taps, const l
     return fma(taps->down, below - above, above);
 }
 
+/* Bands from `band` on at the taps of one lane: VW neighbours in memory, which a texel of more bands has. */
+static inline vfloat bands_at(global const float* texels, const texel_taps* taps, int lane, int band) {
+    const vfloat a = VLOAD(texels + taps->at[0][lane] + band);
+    if (taps->single) return a;
+    const vfloat b = VLOAD(texels + taps->at[1][lane] + band), c = VLOAD(texels + taps->at[2][lane] + band),
+                 d = VLOAD(texels + taps->at[3][lane] + band);
+    const vfloat right = taps->rights[lane], above = fma(right, b - a, a), below = fma(right, d - c, c);
+    return fma((vfloat)taps->downs[lane], below - above, above);
+}
+
 /* A texture where the lanes of a mask see it. */
 typedef struct texture_view {
     lane_list lanes;
@@ -147,6 +160,7 @@ typedef struct texture_view {
 #ifdef HAS_MIP
     texel_taps coarser;
     vfloat fraction; /* of the way to the coarser level */
+    float fractions[VW];
 #endif
 } texture_view;
 
@@ -159,6 +173,7 @@ static void look_at_texture(sd_texture t, surface s, vint mask, float samples, t
         taps_at(t, place.level, s, &view->lanes, &view->taps);
         taps_at(t, min(place.level + 1, (vint)(t.levels - 1)), s, &view->lanes, &view->coarser);
         view->fraction = place.fraction;
+        VSTORE(place.fraction, view->fractions);
         return;
     }
     view->coarser.single = -1;
@@ -171,6 +186,17 @@ static inline vfloat texture_band(global const float* texels, const texture_view
 #ifdef HAS_MIP
     if (view->coarser.single < 0) return value;
     return fma(view->fraction, tapped(texels, &view->coarser, &view->lanes, band) - value, value);
+#else
+    return value;
+#endif
+}
+
+/* Bands from `band` on where one lane sees the texture. */
+static inline vfloat texture_bands(global const float* texels, const texture_view* view, int lane, int band) {
+    const vfloat value = bands_at(texels, &view->taps, lane, band);
+#ifdef HAS_MIP
+    if (view->coarser.single < 0) return value;
+    return fma((vfloat)view->fractions[lane], bands_at(texels, &view->coarser, lane, band) - value, value);
 #else
     return value;
 #endif

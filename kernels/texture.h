@@ -44,11 +44,45 @@ static inline vfloat of_texel(float inside, float second, vfloat rho) {
     return rho;
 }
 
+/* The same for a texture of more than VW bands, whose texels are read as vectors of bands, lane after lane: a tenth of the loads. A
+ * pixel's lanes add up one after another. */
+static void add_wide(const texture_view* view, int bands, global const float* texels, vfloat g, uint groups, int steps, float inside,
+                     float second, global float* sums) {
+    const size_t next_term = (size_t)groups * SD_BLOCK;
+    float weight[VW];
+    VSTORE(g, weight);
+    for (int from = 0, to; from < view->lanes.count; from = to) {
+        const int pixel = view->lanes.lane[from] / SLOTS;
+        for (to = from + 1; to < view->lanes.count && view->lanes.lane[to] / SLOTS == pixel; ++to) {}
+        for (int k = 0; k < steps; ++k) {
+            /* The last band ends the last interval. The last vector begins where it still fits. */
+            const int count = k == 0 ? bands : bands - 1;
+            for (int band = 0; band < count; band += VW) {
+                const int start = min(band, count - VW);
+                vfloat sum = 0.0f;
+                for (int l = from; l < to; ++l) {
+                    const int lane = view->lanes.lane[l];
+                    vfloat rho = texture_bands(texels, view, lane, start);
+                    if (k > 0) rho = fma((vfloat)((float)k / (float)steps), texture_bands(texels, view, lane, start + 1) - rho, rho);
+                    sum = sum + weight[lane] * of_texel(inside, second, rho);
+                }
+                float one[VW];
+                VSTORE(sum, one);
+                for (int i = band - start; i < VW; ++i) sums[((size_t)(start + i) * steps + k) * next_term + pixel] += one[i];
+            }
+        }
+    }
+}
+
 /* g times what the lobe makes of each band of its texture, to terms [band][step][light group] from `sums` on. */
 static void add_textured(sd_texture t, global const float* texels, surface s, vfloat g, vint mask, float samples, uint groups,
                          int steps, float inside, float second, global float* sums) {
     texture_view view;
     look_at_texture(t, s, mask, samples, &view);
+    if (t.bands > VW) {
+        add_wide(&view, t.bands, texels, g, groups, steps, inside, second, sums);
+        return;
+    }
     const size_t next_term = (size_t)groups * SD_BLOCK;
     vfloat here = texture_band(texels, &view, 0);
     for (int band = 0; band < t.bands; ++band) {

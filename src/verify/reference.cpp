@@ -91,7 +91,7 @@ void Reference::shadePixel(const Plan& plan, const sd_frame& frame, const PixelP
                      y = place.y * SD_SUBPIXEL - frame.height * (SD_SUBPIXEL / 2) + pattern.y[k];
         const sd_material& material =
             world.materials[seen[k] == scalar::noTriangle ? 0 : world.triangleMaterial[seen[k]]];
-        const auto add = [&](size_t, std::uint32_t term, double value) {
+        const auto add = [&](size_t, std::uint32_t term, double value, bool) {
             g[material.first_term + term] += value;
         };
         scalar::shadeSample<double>(plan, vertices_, frame, material, seen[k], x, y, add);

@@ -147,8 +147,14 @@ SurfaceOf<Real> mirroredAt(const World& world, const sd_lobe& lobe, const sd_fra
     return byDirection(s, d, frame, world.textures[lobe.texture - 1].width);
 }
 
-/// Calls add(call, term, g) for everything that lobes and lights add to one sample; `call` orders the
-/// additions.
+/// Textures of more bands are read by vectors of bands, which adds a pixel's samples up one after another
+/// instead of pairwise (kernels/texture.h).
+inline bool isWide(const sd_texture& t) {
+    return t.bands > 16;
+}
+
+/// Calls add(call, term, g, wide) for everything that lobes and lights add to one sample; `call` orders the
+/// additions, `wide` says that a texture wider than vectors is one of the factors.
 template <typename Real, typename Add>
 void shade(const Plan& plan, const sd_frame& frame, const sd_material& material, const SurfaceOf<Real>& s,
            const Add& add) {
@@ -157,7 +163,7 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
     size_t call = 0;
     for (std::uint32_t l = 0; l < material.lobes; ++l) {
         const sd_lobe& lobe = world.lobes[material.first_lobe + l];
-        constexpr size_t callsALight = 64;
+        constexpr size_t callsALight = 1 << 20;
         const auto samples = static_cast<Real>(plan.samples);
         const auto leftBy = [](Real inside, Real rho) {
             return rho * (Real(1.0) - inside) / std::fma(-rho, inside, Real(1.0));
@@ -177,7 +183,7 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
                     Real left = rho;
                     if (inside != 0) left = leftBy(inside, rho);
                     if (inside != 0 && second >= 0) left *= leftBy(second, rho);
-                    add(base + block, term + block * stride, g * left);
+                    add(base + block, term + block * stride, g * left, isWide(t));
                 }
             }
             return block;
@@ -185,7 +191,7 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
         const auto paint = [&](size_t base, std::uint32_t term, Real g, std::uint32_t stride) {
             if (lobe.strength != 0) g = g * texel(world, world.textures[lobe.strength - 1], s, samples, 0);
             if (lobe.texture == 0)
-                add(base, term, g);
+                add(base, term, g, false);
             else
                 paintedAt(s, base, term, g, lobe.steps, lobe.inside, Real(-1.0), stride);
         };
@@ -194,7 +200,7 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
                                    Real second) {
             std::uint32_t blocks = 1;
             if (lobe.texture == 0)
-                add(at, term, g);
+                add(at, term, g, false);
             else
                 blocks = paintedAt(s, at, term, g, steps, inside, second, groups);
             at += blocks;
@@ -248,10 +254,11 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
                     for (std::uint32_t f = 0; f < lobe.functions; ++f)
                         add(base + f, term + f * groups,
                             light.scale * inversePi<Real> *
-                                lookUp(lobe, table + (1 + f) * each * SD_CELLS, viewCell, azimuth));
+                                lookUp(lobe, table + (1 + f) * each * SD_CELLS, viewCell, azimuth),
+                            false);
                     if (lobe.multiple_to == lobe.functions)
                         add(base + lobe.functions, term + lobe.functions * groups,
-                            light.scale * inversePi<Real> * first);
+                            light.scale * inversePi<Real> * first, false);
                 }
                 continue;
             }
@@ -314,10 +321,10 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
                 for (std::uint32_t f = 0; f < lobe.functions; ++f) {
                     Real g = shape * lookUp(table + ((1 + lobe.functions) * each + f) * SD_CELLS, facing);
                     if (f == lobe.multiple_to) g += multiple;
-                    add(base + f, term + f * groups, g);
+                    add(base + f, term + f * groups, g, false);
                 }
                 if (lobe.multiple_to == lobe.functions)
-                    add(base + lobe.functions, term + lobe.functions * groups, multiple);
+                    add(base + lobe.functions, term + lobe.functions * groups, multiple, false);
             }
         }
     }
@@ -330,14 +337,14 @@ void shadeBackdrop(const Plan& plan, const sd_frame& frame, const sd_material& m
     if (material.terms == 0) return;
     const sd_lobe& behind = plan.world.lobes[material.first_lobe];
     if (behind.texture == 0) {
-        add(0, 0, Real(1.0));
+        add(0, 0, Real(1.0), false);
         return;
     }
     const sd_texture& t = plan.world.textures[behind.texture - 1];
     const auto at = backdropAt<Real>(plan.world, behind, frame, x, y);
     for (int band = 0; band < t.bands; ++band)
         add(static_cast<size_t>(band), static_cast<std::uint32_t>(band),
-            texel(plan.world, t, at, static_cast<Real>(plan.samples), band));
+            texel(plan.world, t, at, static_cast<Real>(plan.samples), band), isWide(t));
 }
 
 /// All that a sample adds which sees this triangle, or none. x, y: SD_SUBPIXEL-ths of a pixel from the

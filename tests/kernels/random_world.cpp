@@ -105,17 +105,24 @@ void addMaterials(Plan& plan, bool backdrop) {
             addLobe(plan, SD_LOBE_FACETS, term, 0.2, 1, false, across), end(term);
     }
     // Lambert, coat and rough diffuse, bare and coated, over textures: every filter, both ways beyond the
-    // border, turned, masked; and glowing.
-    for (const auto& [type, filter] : {std::pair{SD_LOBE_DIFFUSE, TextureFilter::bilinear},
-                                       {SD_LOBE_COATED, TextureFilter::nearest},
-                                       {SD_LOBE_ROUGH, TextureFilter::mip},
-                                       {SD_LOBE_ROUGH_COATED, TextureFilter::bilinear}}) {
+    // border, turned, masked; and glowing. Textures of few bands, and of more than vectors have lanes.
+    struct Painted {
+        int type;
+        TextureFilter filter;
+        int bands;
+    };
+    for (const auto& [type, filter, bands] : {Painted{SD_LOBE_DIFFUSE, TextureFilter::bilinear, 19},
+                                              {SD_LOBE_COATED, TextureFilter::nearest, 4},
+                                              {SD_LOBE_COATED, TextureFilter::bilinear, 17},
+                                              {SD_LOBE_ROUGH, TextureFilter::mip, 4},
+                                              {SD_LOBE_ROUGH, TextureFilter::mip, 18},
+                                              {SD_LOBE_ROUGH_COATED, TextureFilter::bilinear, 4}}) {
         TextureUse use;
         use.filter = filter;
         use.repeat = filter != TextureFilter::nearest;
         if (use.repeat) use.scale = {1.36, 1.0}, use.rotateDegrees = 20, use.offset = {0.2, -0.6};
-        Texels image{5, 3, 4, {}};
-        for (int i = 0; i < 5 * 3 * 4; ++i)
+        Texels image{5, 3, bands, {}};
+        for (int i = 0; i < 5 * 3 * bands; ++i)
             image.texels.push_back(static_cast<float>((i * 37 % 101) / 100.0));
         const sd_uint number = addTexels(world, image, use);
         // A strength beside it: the same texels read as one band.
@@ -123,7 +130,8 @@ void addMaterials(Plan& plan, bool backdrop) {
         t.bands = 1, t.width = 7, t.levels = 1;
         world.textures.push_back(t);
         const int steps = type == SD_LOBE_COATED ? 3 : type == SD_LOBE_DIFFUSE ? 1 : 2;
-        const std::uint32_t blocks = static_cast<std::uint32_t>(3 * steps + 1);
+        const auto width = static_cast<std::uint32_t>(bands);
+        const std::uint32_t blocks = (width - 1) * static_cast<std::uint32_t>(steps) + 1;
         term = 0;
         begin();
         addLobe(plan, type, term, 0.4);
@@ -132,13 +140,13 @@ void addMaterials(Plan& plan, bool backdrop) {
         lobe.strength = type == SD_LOBE_DIFFUSE ? number + 1 : 0;
         lobe.inside = type == SD_LOBE_DIFFUSE ? 0.0f : 0.55f;
         lobe.steps = steps;
-        term = plan.groups * (type == SD_LOBE_ROUGH          ? 4 + blocks
-                              : type == SD_LOBE_ROUGH_COATED ? 4 + 2 * blocks
+        term = plan.groups * (type == SD_LOBE_ROUGH          ? width + blocks
+                              : type == SD_LOBE_ROUGH_COATED ? width + 2 * blocks
                                                              : blocks);
         addLobe(plan, SD_LOBE_EMISSION, term, 0);
         world.lobes.back().texture = number;
         world.lobes.back().steps = 1;
-        end(term + 3);
+        end(term + width - 1);
     }
     // Mirrors that show six faces, or the picture's own place; and six faces behind everything.
     Texels faces{3, 18, 4, {}};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 namespace spectrad::twin {
@@ -17,6 +18,17 @@ Real pairwise(const std::vector<Real>& v, size_t from, size_t count) {
     if (count == 1) return v[from];
     return pairwise(v, from, count / 2) + pairwise(v, from + count / 2, count / 2);
 }
+
+/// What a pixel's lanes add to a term at once.
+template <typename Real>
+struct Addend {
+    std::uint32_t term;
+    bool oneAfterAnother;
+    std::vector<Real> g;
+    Real sum() const {
+        return oneAfterAnother ? std::accumulate(g.begin(), g.end(), Real(0.0)) : pairwise(g, 0, g.size());
+    }
+};
 
 }  // namespace
 
@@ -62,14 +74,13 @@ BlockOf<Real> light(const Plan& plan, const Vertices& vertices, const sd_frame& 
             const sd_material& material = world.materials[m];
             // Each add of the kernel, in its order; lanes left at zero where the sample sees another triangle
             // or no light.
-            std::map<size_t, std::pair<std::uint32_t, std::vector<Real>>> adds;
+            std::map<size_t, Addend<Real>> adds;
             for (size_t i = 0; i < group; ++i) {
                 if (!lanes.used[(lane + i) % slots] || static_cast<std::uint32_t>(cells[lane + i]) != id)
                     continue;
-                const auto add = [&](size_t call, std::uint32_t term, Real g) {
-                    auto& entry =
-                        adds.try_emplace(call, term, std::vector<Real>(group, Real(0.0))).first->second;
-                    entry.second[i] = g;
+                const auto add = [&](size_t call, std::uint32_t term, Real g, bool wide) {
+                    const Addend<Real> none{term, wide, std::vector<Real>(group, Real(0.0))};
+                    adds.try_emplace(call, none).first->second.g[i] = g;
                 };
                 const size_t slot = (lane + i) % slots;
                 const int sx = (blockColumn * SD_BLOCK + static_cast<int>(x)) * 256 - frame.width * 128 +
@@ -79,7 +90,7 @@ BlockOf<Real> light(const Plan& plan, const Vertices& vertices, const sd_frame& 
                                   static_cast<Real>(sy), add);
             }
             for (const auto& [call, entry] : adds) {
-                block.g[(offset[m] + entry.first) * SD_BLOCK + x] += pairwise(entry.second, 0, group);
+                block.g[(offset[m] + entry.term) * SD_BLOCK + x] += entry.sum();
             }
         }
     }
