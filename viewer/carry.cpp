@@ -41,8 +41,10 @@ Look carried(const Look& old, const Subject& before, const Subject& fresh, const
                 light.times = now.times;
                 light.on = now.on;
             }
-            if (sameSpectrum && now.emitter.spectrum.text != was.emitter.spectrum.text)
+            if (sameSpectrum && now.emitter.spectrum.text != was.emitter.spectrum.text) {
                 light.emitter.spectrum = resolver.resolve(now.emitter.spectrum.text, Role::light, {});
+                light.emitter.texture.reset();
+            }
         }
     const auto *opened = dynamic_cast<const SceneSubject*>(&fresh),
                *closed = dynamic_cast<const SceneSubject*>(&before);

@@ -23,9 +23,12 @@ void drawLight(Session& session, PanelState& state, size_t number) {
     std::string chosen = light.emitter.spectrum.text;
     if (chooseName("##spectrum", state, state.illuminants, chosen))
         attempt(state, [&] { session.setLightSpectrum(number, chosen); });
-    std::vector<double> nm, value;
-    sampled(look.lights[number].emitter.spectrum.curve(), nm, value);
-    plotSpectrum("##plot", nm, value, ImGui::GetContentRegionAvail().x, 46 * state.scale);
+    // One of a pass's colour has no spectrum by itself.
+    if (!light.emitter.texture) {
+        std::vector<double> nm, value;
+        sampled(light.emitter.spectrum.curve(), nm, value);
+        plotSpectrum("##plot", nm, value, ImGui::GetContentRegionAvail().x, 46 * state.scale);
+    }
     auto stops = static_cast<float>(std::log2(std::max(light.times, 1e-6)));
     ImGui::SetNextItemWidth(-1);
     if (ImGui::SliderFloat("##amount", &stops, -6, 6, "%+.2f stops")) {

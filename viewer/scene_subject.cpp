@@ -1,5 +1,6 @@
 #include "viewer/scene_subject.h"
 
+#include "render/emitter_colour.h"
 #include "render/texels.h"
 
 #include <algorithm>
@@ -51,9 +52,6 @@ SceneSubject::SceneSubject(const std::filesystem::path& file, const LoadOptions&
     if (made.faces > 1)
         throw InputError("camera '" + made.cameraName +
                          "' looks all around: view needs one that looks ahead");
-    for (const Light& light : scene_.lights)
-        if (light.emitter.texture)
-            throw InputError(light.where, "a light of a pass's colour is not there in the viewer yet");
     if (shot.pass && (shot.pass->screen || shot.pass->mirror))
         throw InputError(shot.pass->where, "pass '" + shot.pass->name + "' is a picture on a " +
                                                (shot.pass->screen ? "display" : "mirror") +
@@ -116,11 +114,10 @@ Scene SceneSubject::sceneOf(const Look& look) const {
     return changed;
 }
 
-std::vector<LightGroup> SceneSubject::groupsOf(const Scene& changed) {
+std::vector<LightGroup> SceneSubject::groupsOf(const Scene& changed, const ResolveEmitter& resolved) {
     std::vector<sd_light> lights;
-    return groupLights(
-        changed, flat_, view_, standardObserver(library_), [](const Emitter& emitter) { return emitter; },
-        lights, false, settings_.lightsApart);
+    return groupLights(changed, flat_, view_, standardObserver(library_), resolved, lights, false,
+                       settings_.lightsApart);
 }
 
 void SceneSubject::plan(Table& table, const Look& look, const Scene& changed) {
@@ -134,6 +131,7 @@ void SceneSubject::plan(Table& table, const Look& look, const Scene& changed) {
     Plan made = makePlan(changed, settings, library_, passes, unsaid);
     fetchTexels(made.world);
     ++timesPlanned_;
+    table.groups = groupsOf(changed, [&](const Emitter& emitter) { return withMeanColour(emitter, passes); });
     table.recipes = made.terms.recipes;
     table.spectra = made.terms.spectra;
     table.colours = made.terms.preview;
@@ -204,9 +202,14 @@ std::shared_ptr<const SceneSubject::Table> SceneSubject::table(const Look& look)
     bool fresh = near == tables_.rend() || !apart();
     if (!fresh) {
         made = **near;
-        const std::vector<LightGroup> groups = groupsOf(changed);
+        const bool otherLamps = (*near)->lamps != lamps, otherAmounts = (*near)->amounts != amounts;
+        // A light of a pass's colour has that of the last plan, which is its own while no lamp changes.
+        const bool ofPass = std::any_of(changed.lights.begin(), changed.lights.end(),
+                                        [](const Light& light) { return light.emitter.texture.has_value(); });
+        const std::vector<LightGroup> groups =
+            ofPass ? made.groups : groupsOf(changed, [](const Emitter& emitter) { return emitter; });
         // Lamps may shine in other passes alone.
-        fresh = (passes_ && (*near)->amounts != amounts) || (pictures_ && (*near)->lamps != lamps);
+        fresh = ((passes_ || ofPass) && otherAmounts) || ((pictures_ || ofPass) && otherLamps);
         fresh = fresh || groups.size() != made.groups.size();
         for (size_t t = 0; t < made.recipes.size() && !fresh; ++t) {
             const TermRecipe& recipe = made.recipes[t];
@@ -229,10 +232,7 @@ std::shared_ptr<const SceneSubject::Table> SceneSubject::table(const Look& look)
     made.amounts = amounts;
     made.lamps = lamps;
     made.eye = look.eye;
-    if (fresh) {
-        made.groups = groupsOf(changed);
-        plan(made, look, changed);
-    }
+    if (fresh) plan(made, look, changed);
     constexpr size_t kept = 8;
     if (tables_.size() >= kept) tables_.erase(tables_.begin());
     tables_.push_back(std::make_shared<const Table>(std::move(made)));

@@ -93,7 +93,7 @@ class SceneSubject : public Subject {
     /// The scene as it is planned: lights that must change without the others are in groups of their own.
     [[nodiscard]] Scene grouped(const Look& look);
     [[nodiscard]] bool apart();
-    [[nodiscard]] std::vector<LightGroup> groupsOf(const Scene& scene);
+    [[nodiscard]] std::vector<LightGroup> groupsOf(const Scene& scene, const ResolveEmitter& resolved);
     /// All terms anew, materials included.
     void plan(Table& table, const Look& look, const Scene& changed);
     void resolve();

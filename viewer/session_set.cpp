@@ -50,6 +50,7 @@ void Session::setLightSpectrum(size_t light, const std::string& spectrum) {
     Spectrum resolved = resolver_.resolve(spectrum, Role::light, {});
     Look changed = look(edited);
     changed.lights.at(light).emitter.spectrum = std::move(resolved);
+    changed.lights[light].emitter.texture.reset();
     touch(changed);
     // What cannot shine, such as an amount of a spectrum without light, is found out before it is kept.
     check(changed);

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "colour/observe.h"
+#include "render/emitter_colour.h"
 #include "render/range_check.h"
 #include "render/samples.h"
 #include "render/texels.h"
@@ -253,18 +254,6 @@ View viewOf(const Shot& shot, const RenderSettings& settings, const FlatScene& f
     return view;
 }
 
-/// A light of the colour of a pass: its mean over all pixels.
-Emitter withMeanOf(const Emitter& emitter, TextureLoader& textures) {
-    SpectralTexture texture = textures.load(*emitter.texture);
-    texture.fetch();
-    std::vector<double> mean = meanOfTexels(texture.texels, texture.nm.size());
-    for (double& value : mean)
-        value = std::max(0.0, value);
-    Emitter light = emitter;
-    light.spectrum.curves = {Curve::table(texture.nm, mean)};
-    return light;
-}
-
 /// The surfaces of a node, where they stand.
 std::vector<FlatScene::Object> objectsToBake(const Scene& scene, const Bake& bake) {
     const Node& node = byName(scene.nodes, bake.node, "node");
@@ -304,9 +293,7 @@ Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& l
     if (settings.bake) flat.objects = objectsToBake(scene, *settings.bake);
 
     const Detector observer = standardObserver(library);
-    const auto resolved = [&](const Emitter& emitter) {
-        return emitter.texture ? withMeanOf(emitter, textures) : emitter;
-    };
+    const auto resolved = [&](const Emitter& emitter) { return withMeanColour(emitter, textures); };
     std::vector<LightGroup> groups =
         groupLights(scene, flat, plan.view, observer, resolved, plan.world.lights,
                     isEqualEnergy(settings.substitute), settings.lightsApart);

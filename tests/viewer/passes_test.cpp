@@ -80,6 +80,23 @@ TEST_CASE("a lamp that shines in another pass alone changes the picture") {
     CHECK(worstDifference(desk, textNow(desk)) < bound);
 }
 
+TEST_CASE("a light of a pass's colour is that of render, whatever lamp lights the pass") {
+    if (!canView()) return;
+    const std::string glowing = replaced(hall, "illuminants/D65", "pass:shown");
+    Desk desk{glowing};
+    CHECK(worstDifference(desk, glowing) < bound);
+    desk.session->set("chartlight.spectrum=illuminants/FL2");
+    CHECK(worstDifference(desk, textNow(desk)) < bound);
+    desk.session->set("blue.reflectance=charts/colorchecker/yellow");
+    desk.session->set("lamp.times=0.5");
+    CHECK(worstDifference(desk, textNow(desk)) < bound);
+    desk.session->set("observer=cie1964-10");
+    CHECK(worstDifference(desk, textNow(desk)) < bound);
+    (void)desk.viewer->picture();  // its panel
+    desk.session->set("lamp.spectrum=illuminants/A");
+    CHECK(worstDifference(desk, textNow(desk)) < bound);
+}
+
 TEST_CASE("from elsewhere, and in another size, mirror and backdrop are made for the camera") {
     if (!canView()) return;
     Desk desk{std::string(hall)};
