@@ -41,6 +41,11 @@ extremes: packages packages-test build/build.ninja | out
 	if command -v clang++ > /dev/null; then cmake --preset fuzz && cmake --build build-fuzz --target $(FUZZERS:%=fuzz_%); fi
 	python3 tests/extremes/report.py $(PROGRAM) out/extremes.md --fuzz-folder build-fuzz --seconds $(FUZZ_SECONDS) $(if $(HEAVY),--heavy)
 
+##accuracy        docs/accuracy-study.md and its plots: every scene under six lamps, measured anew (half an hour)
+.PHONY: accuracy
+accuracy: $(PROGRAM)
+	python3 docs/accuracy_study.py $(PROGRAM) out/accuracy
+
 ##figures         the paper's figures 2 to 5 and a table of what was measured in them, in out/figures/
 .PHONY: figures
 figures: $(PROGRAM)
