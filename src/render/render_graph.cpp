@@ -63,7 +63,7 @@ std::vector<PassNeed> neededToBake(const Scene& scene, const Bake& bake) {
     alone.lights.emplace();
     for (size_t i = 0; i < scene.lights.size(); ++i)
         alone.lights->push_back(static_cast<Index>(i));
-    return passesNeeded(scene, &alone);
+    return passesNeeded(scene, &alone, true);
 }
 
 using Key = std::pair<const Pass*, int>;  ///< and its generation

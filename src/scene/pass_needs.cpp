@@ -36,7 +36,7 @@ bool usesPasses(const Scene& scene) {
 
 }  // namespace
 
-std::vector<PassNeed> passesNeeded(const Scene& scene, const Pass* pass) {
+std::vector<PassNeed> passesNeeded(const Scene& scene, const Pass* pass, bool baked) {
     std::vector<PassNeed> needs;
     const auto add = [&](const TextureUse& use) {
         if (!use.isPass()) return;
@@ -58,7 +58,7 @@ std::vector<PassNeed> passesNeeded(const Scene& scene, const Pass* pass) {
         for (const TextureUse* use : texturesOf(scene.materials[material]))
             add(*use);
     };
-    if (const TextureUse* use = backdropOf(scene, pass)) add(*use);
+    if (const TextureUse* use = baked ? nullptr : backdropOf(scene, pass)) add(*use);
     for (const Placed& light : flat.lights)
         if (const auto& texture = scene.lights[light.index].emitter.texture) add(*texture);
     for (const FlatScene::Object& object : flat.objects) {

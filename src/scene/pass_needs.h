@@ -21,8 +21,8 @@ struct PassNeed {
     const TextureUse* use;
 };
 /// What must be rendered before this pass of `scene` (null: the whole scene through a camera): each pass that
-/// what is shown wears, once.
-[[nodiscard]] std::vector<PassNeed> passesNeeded(const Scene& scene, const Pass* pass);
+/// what is shown wears, once; and what is behind it, unless it is to be baked.
+[[nodiscard]] std::vector<PassNeed> passesNeeded(const Scene& scene, const Pass* pass, bool baked = false);
 
 /// Throws InputError for passes that need each other, with the chain; a pass may need itself if it repeats,
 /// and must if it does.

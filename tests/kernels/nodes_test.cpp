@@ -94,6 +94,7 @@ std::vector<Device> bothForms() {
 TextureUse useAs(TextureRole role, TextureFilter filter = TextureFilter::bilinear) {
     TextureUse use;
     use.role = role;
+    use.source = "pass:p";
     use.filter = filter;
     return use;
 }

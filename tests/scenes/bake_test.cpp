@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -126,6 +127,59 @@ TEST_CASE(
         CHECK(filled < inside + 240 + (gutter == 0 ? 0 : 3 * 2 * std::numbers::pi * 36));
         if (gutter == 3) CHECK(filled > inside + 400);  // the square cuts the rings off
     }
+}
+
+TEST_CASE("what lies behind a baked surface does not shine through where it covers a texel in part") {
+    if (!haveDevice()) return;
+    const auto disc = [](const std::string& behind) {
+        return fmt::format(
+            "<scene version=\"1\">{}{}<material name=\"m\"><diffuse reflectance=\"constant:0.5\"/>"
+            "</material><node name=\"disc\"><disc radius=\"1\" material=\"m\"/></node>"
+            "<node name=\"cloud\"><sphere radius=\"9\"/></node>{}</scene>",
+            one500, lamps, behind);
+    };
+    const std::string plain = R"(<background spectrum="constant:1" scale="1000"/>)",
+                      picture = R"(<background texture="pass:sky"/><pass name="sky" of="cloud"/>)";
+    for (const PassKind as : {PassKind::radiance, PassKind::irradiance, PassKind::reflectance})
+        for (const int gutter : {0, 2}) {
+            const Cube alone = baked(disc(""), "disc", as, 24, 24, 16, gutter);
+            CHECK(baked(disc(plain), "disc", as, 24, 24, 16, gutter).values == alone.values);
+            CHECK(baked(disc(picture), "disc", as, 24, 24, 16, gutter).values == alone.values);
+            // Edge texels hold the mean of what is covered: no darker than the disc beside them.
+            float least = 1e9f, largest = 0;
+            for (const float value : alone.values)
+                if (value > 0) least = std::min(least, value), largest = std::max(largest, value);
+            CHECK(least > (as == PassKind::reflectance ? 0.999f : 0.02f) * largest);
+        }
+}
+
+TEST_CASE(
+    "a bake renders the passes that its node wears and that light it, not what is elsewhere or behind it") {
+    if (!haveDevice()) return;
+    const auto rendered = [](const std::string& node, const std::string& more) {
+        const Scene scene = sceneFrom(R"(<scene version="1"><wavelengths>500 600</wavelengths>
+<material name="print"><diffuse texture="pass:worn"/></material>
+<material name="other"><emission texture="pass:elsewhere"/></material>
+<node name="wall"><plane material="print"/></node><node name="screen"><plane material="other"/></node>
+<node name="things"><sphere radius="1"/></node>
+<light name="lamp" type="ambient" spectrum="constant:1" scale="1"/><camera size="8x8" look-from="0 0 5"/>
+<pass name="worn" of="things" lights="lamp" as="reflectance"/><pass name="elsewhere" of="things" lights="lamp"/>
+<pass name="sun" of="things" lights="lamp" as="irradiance"/><pass name="sky" of="things" lights="lamp"/>)" +
+                                      more + "</scene>");
+        RenderSettings settings;
+        settings.bake = Bake{node, PassKind::radiance, 0};
+        settings.size = {8, 8};
+        Notes notes;
+        std::string names;
+        const std::vector<GraphNode> graph = renderGraph(scene, settings, notes);
+        for (size_t i = 0; i + 1 < graph.size(); ++i)
+            names += graph[i].shot.pass->name + " ";
+        return names;
+    };
+    CHECK(rendered("wall", "") == "worn ");
+    CHECK(rendered("wall", R"(<light type="directional" spectrum="pass:sun" direction="0 0 -1"/>)") ==
+          "sun worn ");
+    CHECK(rendered("things", R"(<background texture="pass:sky"/>)").empty());
 }
 
 TEST_CASE("the gutter repeats what is next to it and stops at its width") {
