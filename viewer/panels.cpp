@@ -17,12 +17,12 @@ namespace {
 
 void drawLight(Session& session, PanelState& state, size_t number) {
     Look& look = session.look(session.edited);
-    LightSetting& light = look.lights[number];
     ImGui::PushID(static_cast<int>(number));
-    if (ImGui::Checkbox(light.name.c_str(), &light.on)) session.touch(look);
-    std::string chosen = light.emitter.spectrum.text;
+    if (ImGui::Checkbox(look.lights[number].name.c_str(), &look.lights[number].on)) session.touch(look);
+    std::string chosen = look.lights[number].emitter.spectrum.text;
     if (chooseName("##spectrum", state, state.illuminants, chosen))
         attempt(state, [&] { session.setLightSpectrum(number, chosen); });
+    LightSetting& light = look.lights[number];  // after the change, which makes them anew
     // One of a pass's colour has no spectrum by itself.
     if (!light.emitter.texture) {
         std::vector<double> nm, value;
