@@ -1,4 +1,5 @@
-// The panel "Save" by hand: what is clicked is written, under the name that is typed.
+// Panels by hand. "Save": what is clicked is written, under the name that is typed; "Lights": what is chosen
+// shines.
 #include "base/files.h"
 #include "viewer/support.h"
 
@@ -94,4 +95,16 @@ TEST_CASE("the Save panel writes picture, cube, scene and pins under the name in
     click(desk, buttons[2]);
     CHECK_THAT(readFile(path("scene-view2.xml")), Catch::Contains("illuminants/A"));
     CHECK_FALSE(std::filesystem::exists(path("scene-view2.png")));
+}
+
+TEST_CASE("a lamp is chosen from its list by typing, and the panel goes on with it") {
+    if (!canView()) return;
+    Desk desk{std::string(smallScene())};
+    desk.play("resize 800 600");
+    (void)desk.viewer->picture();
+    click(desk, {650, 83});  // the first light's list
+    desk.play("type illuminants/FL11\nkey enter");
+    (void)desk.viewer->picture();
+    CHECK(desk.session->look(0).lights[0].emitter.spectrum.text == "illuminants/FL11");
+    CHECK(desk.session->look(0).lights[0].times == 1);
 }
