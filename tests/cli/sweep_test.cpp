@@ -213,7 +213,8 @@ TEST_CASE(
     const Outcome swept = run(folder, sweep);
     INFO(swept.err);
     REQUIRE(swept.code == 0);
-    for (const json& row : swept.json().at("regions")) {
+    const json said = swept.json();
+    for (const json& row : said.at("regions")) {
         const std::string lamp = row.at("variant");
         REQUIRE(run(folder, {"render", "s.xml", "-q", "-o", "one.exr", "--set",
                              "key.spectrum=illuminants/" + lamp.substr(lamp.rfind('_') + 1)})
