@@ -128,7 +128,7 @@ Device Device::open(std::optional<int> number) {
     device.body_ = std::make_shared<Body>();
     device.body_->info = chosen->info;
     checked(*device.body_, "open", [&] {
-        device.body_->device = chosen->device;
+        device.body_->device = cl::Device(chosen->device);
         device.body_->context = cl::Context(chosen->device);
         device.body_->queue = cl::CommandQueue(device.body_->context, chosen->device);
     });
@@ -139,10 +139,12 @@ Device Device::withOwnQueue() const {
     Device device;
     device.body_ = std::make_shared<Body>();
     device.body_->info = body_->info;
-    device.body_->device = body_->device;
-    device.body_->context = body_->context;
-    checked(*body_, "opening another queue",
-            [&] { device.body_->queue = cl::CommandQueue(body_->context, body_->device); });
+    // Copied, then moved: the bindings' assignment releases what it failed to retain.
+    checked(*body_, "opening another queue", [&] {
+        device.body_->device = cl::Device(body_->device);
+        device.body_->context = cl::Context(body_->context);
+        device.body_->queue = cl::CommandQueue(body_->context, body_->device);
+    });
     return device;
 }
 

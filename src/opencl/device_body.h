@@ -63,6 +63,8 @@ class DeviceArray {
     void reserve(const Device& device, size_t count, const char* what);
     /// Exactly these elements.
     void upload(const Device& device, const T* data, size_t count, const char* what);
+    /// Copies `count` elements, from element `from` on, to `data`. Throws MachineError.
+    void read(const Device& device, T* data, size_t count, const char* doing, size_t from = 0) const;
     [[nodiscard]] const cl::Buffer& buffer() const { return buffer_; }
     [[nodiscard]] size_t capacity() const { return capacity_; }
 
@@ -93,6 +95,21 @@ void DeviceArray<T>::upload(const Device& device, const T* data, size_t count, c
     if (count == 0) return;
     checked(device.body(), what,
             [&] { device.body().queue.enqueueWriteBuffer(buffer_, CL_TRUE, 0, count * sizeof(T), data); });
+}
+
+template <typename T>
+void readElements(const Device& device, const cl::Buffer& buffer, size_t from, size_t count, T* data,
+                  const char* doing) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    if (count == 0) return;
+    checked(device.body(), doing, [&] {
+        device.body().queue.enqueueReadBuffer(buffer, CL_TRUE, from * sizeof(T), count * sizeof(T), data);
+    });
+}
+
+template <typename T>
+void DeviceArray<T>::read(const Device& device, T* data, size_t count, const char* doing, size_t from) const {
+    readElements(device, buffer_, from, count, data, doing);
 }
 
 }  // namespace spectrad

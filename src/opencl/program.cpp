@@ -130,6 +130,14 @@ std::string Program::source(const std::vector<std::string>& files, const std::ve
     return text;
 }
 
+std::string vectorDefine(const Device& device) {
+    return "VW=" + std::to_string(device.body().vectorWidth());
+}
+
+Kernel vectorKernel(const Device& device, const char* file, const char* name) {
+    return Program(device, {file}, {vectorDefine(device)}).kernel(name);
+}
+
 Program::Program(const Device& device, const std::vector<std::string>& files,
                  const std::vector<std::string>& defines, const std::string& cacheFolder)
     : device_(device) {

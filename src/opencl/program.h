@@ -40,6 +40,11 @@ class Kernel {
     std::vector<bool> isSet_;
 };
 
+/// "VW=16": the lanes of the device's vectors.
+[[nodiscard]] std::string vectorDefine(const Device& device);
+/// A kernel of one file that has no other switch. Throws MachineError.
+[[nodiscard]] Kernel vectorKernel(const Device& device, const char* file, const char* name);
+
 /// One program of one or more .cl files of kernels/ (named without folder), compiled with `defines`
 /// ("HAS_GLOSS", "SAMPLES=16"). "CONTRACT" (a·b + c may be fused) and "FAST_MATH" (the compiler's fast
 /// relaxed mathematics) loosen the arithmetic, for studies of it.

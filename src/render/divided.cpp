@@ -2,14 +2,6 @@
 
 namespace spectrad {
 
-namespace {
-
-Program program(const Device& device) {
-    return {device, {"division.cl"}, {"VW=" + std::to_string(device.body().vectorWidth())}};
-}
-
-}  // namespace
-
 std::optional<PixelPlace> divideByWhite(Cube& cube, const Cube& white, const Cube& coverage) {
     const auto width = static_cast<size_t>(cube.info.width);
     const size_t bands = cube.info.wavelengths.size();
@@ -34,8 +26,8 @@ DivisionStage::DivisionStage(const Device& device, int pitch, int width, int hei
       pitch_(static_cast<size_t>(pitch)),
       width_(width),
       height_(height),
-      dark_(program(device).kernel("find_dark")),
-      divide_(program(device).kernel("divide_by_white")) {
+      dark_(vectorKernel(device, "division.cl", "find_dark")),
+      divide_(vectorKernel(device, "division.cl", "divide_by_white")) {
     const size_t pixels = pitch_ * static_cast<size_t>(height);
     white_.reserve(device, pixels, "what a white diffuser sends back");
     coverage_.reserve(device, pixels, "where something is seen");
@@ -69,8 +61,7 @@ std::optional<PixelPlace> DivisionStage::dark() {
         .set("rows", static_cast<cl_uint>(height_))
         .set("found", found.buffer())
         .run(static_cast<size_t>(height_));
-    checked(device_.body(), "reading a pixel's place",
-            [&] { device_.body().queue.enqueueReadBuffer(found.buffer(), CL_TRUE, 0, sizeof at, &at); });
+    found.read(device_, &at, 1, "reading a pixel's place");
     if (at == nowhere) return std::nullopt;
     const auto width = static_cast<cl_ulong>(width_);
     return PixelPlace{static_cast<int>(at % width), static_cast<int>(at / width)};

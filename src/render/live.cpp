@@ -181,9 +181,11 @@ std::shared_ptr<const SeenTerms> LiveImage::seen() {
     const auto made = std::make_shared<SeenTerms>();
     made->width_ = plan_.view.width;
     made->pitch_ = current_->stages->pitch();
-    for (const TermImage& strip : strips_)
-        made->strips_.push_back(
-            {strip.firstRow, strip.rows, strip.first.buffer(), strip.term.buffer(), strip.g.buffer()});
+    checked(device_.body(), "keeping what is seen", [&] {
+        for (const TermImage& strip : strips_)
+            made->strips_.push_back(
+                {strip.firstRow, strip.rows, strip.first.buffer(), strip.term.buffer(), strip.g.buffer()});
+    });
     seen_ = made;
     return made;
 }
@@ -196,12 +198,7 @@ std::vector<std::pair<std::uint32_t, float>> SeenTerms::at(const Device& reader,
     if (strip == strips_.end() || x < 0 || x >= width_) return terms;
     const auto block = static_cast<size_t>((y - strip->firstRow) * (pitch_ / SD_BLOCK) + x / SD_BLOCK);
     const auto read = [&](const cl::Buffer& buffer, size_t from, auto& out) {
-        if (out.empty()) return;
-        using Value = typename std::decay_t<decltype(out)>::value_type;
-        checked(reader.body(), "reading a pixel's terms", [&] {
-            reader.body().queue.enqueueReadBuffer(buffer, CL_TRUE, from * sizeof(Value),
-                                                  out.size() * sizeof(Value), out.data());
-        });
+        readElements(reader, buffer, from, out.size(), out.data(), "reading a pixel's terms");
     };
     std::vector<std::uint32_t> range(2);
     read(strip->first, block, range);
@@ -220,10 +217,7 @@ std::optional<std::uint32_t> LiveImage::triangleAt(int x, int y) {
     stages.cover(y, 1);
     std::uint64_t key = 0;
     const auto sample = static_cast<size_t>(x) * static_cast<size_t>(current_->lanes.slots);
-    checked(device_.body(), "reading what a pixel sees", [&] {
-        device_.body().queue.enqueueReadBuffer(stages.keys().buffer(), CL_TRUE, sample * sizeof key,
-                                               sizeof key, &key);
-    });
+    stages.keys().read(device_, &key, 1, "reading what a pixel sees", sample);
     constexpr std::uint32_t nothing = 0xffffffff;
     const auto triangle = static_cast<std::uint32_t>(key);
     return triangle == nothing ? std::nullopt : std::optional(triangle);

@@ -18,10 +18,6 @@ unsigned itemsOn(const Device& device) {
     return units * (device.body().vectorWidth() == 1 ? perUnitOfGpu : perUnit);
 }
 
-Kernel kernelOf(const Device& device, const char* file, const char* name) {
-    return Program(device, {file}, {"VW=" + std::to_string(device.body().vectorWidth())}).kernel(name);
-}
-
 int halfOf(int side) {
     return std::max(side / 2, 1);
 }
@@ -37,10 +33,7 @@ size_t ResidentTexels::count(int ofLevels) const {
 
 std::vector<float> ResidentTexels::read(int ofLevels) const {
     std::vector<float> host(count(ofLevels));
-    checked(device.body(), "reading a texture", [&] {
-        device.body().queue.enqueueReadBuffer(values.buffer(), CL_TRUE, 0, host.size() * sizeof(float),
-                                              host.data());
-    });
+    values.read(device, host.data(), host.size(), "reading a texture");
     return host;
 }
 
@@ -59,7 +52,7 @@ std::shared_ptr<const ResidentTexels> withLevels(const ResidentTexels& image) {
         image.device.body().queue.enqueueCopyBuffer(image.values.buffer(), all->values.buffer(), 0, 0,
                                                     finest * sizeof(float));
     });
-    Kernel halve = kernelOf(image.device, "pyramid.cl", "halve_texels");
+    Kernel halve = vectorKernel(image.device, "pyramid.cl", "halve_texels");
     for (int level = 1, w = image.width, h = image.height; level < all->levels; ++level) {
         const int halfWidth = halfOf(w), halfHeight = halfOf(h);
         halve.set("texels", all->values.buffer())
@@ -82,7 +75,7 @@ int stepsOn(const ResidentTexels& image, double inside, int power, double tolera
     DeviceArray<std::uint32_t> found;
     std::uint32_t steps = 1;
     found.upload(device, &steps, 1, "the number of steps");
-    kernelOf(device, "steps.cl", "steps_needed")
+    vectorKernel(device, "steps.cl", "steps_needed")
         .set("texels", image.values.buffer())
         .set("count", static_cast<cl_ulong>(image.width) * static_cast<cl_ulong>(image.height))
         .set("bands", static_cast<cl_uint>(image.nm.size()))
@@ -93,8 +86,7 @@ int stepsOn(const ResidentTexels& image, double inside, int power, double tolera
         .set("items", static_cast<cl_uint>(items))
         .set("found", found.buffer())
         .run(items);
-    checked(device.body(), "reading the number of steps",
-            [&] { device.body().queue.enqueueReadBuffer(found.buffer(), CL_TRUE, 0, sizeof steps, &steps); });
+    found.read(device, &steps, 1, "reading the number of steps");
     return static_cast<int>(steps);
 }
 
@@ -104,15 +96,13 @@ float largestOn(const ResidentTexels& image) {
     DeviceArray<float> found;
     float largest = 0;
     found.upload(device, &largest, 1, "the largest value");
-    kernelOf(device, "steps.cl", "largest_value")
+    vectorKernel(device, "steps.cl", "largest_value")
         .set("texels", image.values.buffer())
         .set("count", static_cast<cl_ulong>(image.count(1)))
         .set("items", static_cast<cl_uint>(items))
         .set("found", found.buffer())
         .run(items);
-    checked(device.body(), "reading the largest value", [&] {
-        device.body().queue.enqueueReadBuffer(found.buffer(), CL_TRUE, 0, sizeof largest, &largest);
-    });
+    found.read(device, &largest, 1, "reading the largest value");
     return largest;
 }
 
@@ -127,7 +117,7 @@ TexelStage::TexelStage(const Device& device, const Wavelengths& grid, int width,
       texels_(std::make_shared<ResidentTexels>(ResidentTexels{device, width, height, grid.nm, {}})),
       points_(grid.projection != Projection::slit || grid.size() < 2),
       aboveZero_(aboveZero),
-      kernel_(kernelOf(device, "nodes.cl", "nodal_texels")),
+      kernel_(vectorKernel(device, "nodes.cl", "nodal_texels")),
       items_(itemsOn(device)) {
     const size_t bands = grid.size();
     texels_->values.reserve(device, texels_->count(1), "the texture that a pass makes");
@@ -175,10 +165,7 @@ void TexelStage::add(const cl::Buffer& cube, int pitch, int firstRow, int rows) 
 std::shared_ptr<const ResidentTexels> TexelStage::finish() {
     if (aboveZero_) {
         std::vector<std::uint64_t> lost(items_);
-        checked(device_.body(), "reading a count", [&] {
-            device_.body().queue.enqueueReadBuffer(lost_.buffer(), CL_TRUE, 0,
-                                                   lost.size() * sizeof(std::uint64_t), lost.data());
-        });
+        lost_.read(device_, lost.data(), lost.size(), "reading a count");
         texels_->lost = std::accumulate(lost.begin(), lost.end(), std::uint64_t{0});
     }
     return std::move(texels_);

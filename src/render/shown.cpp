@@ -93,8 +93,7 @@ ScreenStage::ScreenStage(const Device& device, const Screen& screen, const Wavel
       bands_(grid.size()),
       channels_(0),
       width_(width),
-      kernel_(Program(device, {"screen.cl"}, {"VW=" + std::to_string(device.body().vectorWidth())})
-                  .kernel("show_on_screen")) {
+      kernel_(vectorKernel(device, "screen.cl", "show_on_screen")) {
     const Detector observer = standardObserver(library), detector = detectorFrom(screen.detector);
     channels_ = detector.size();
     const auto up = [&](DeviceArray<double>& array, const auto& rows) {
@@ -133,11 +132,8 @@ void ScreenStage::show(const cl::Buffer& cube, int pitch, int firstRow, int rows
 
 void ScreenStage::finish(size_t pixels, Notes& notes) {
     std::uint64_t bad = 0, clipped = 0;
-    checked(device_.body(), "reading what a display clipped", [&] {
-        const cl::CommandQueue& queue = device_.body().queue;
-        queue.enqueueReadBuffer(bad_.buffer(), CL_TRUE, 0, sizeof bad, &bad);
-        queue.enqueueReadBuffer(clipped_.buffer(), CL_TRUE, 0, sizeof clipped, &clipped);
-    });
+    bad_.read(device_, &bad, 1, "reading a pixel's place");
+    clipped_.read(device_, &clipped, 1, "reading what a display clipped");
     const auto width = static_cast<std::uint64_t>(width_);
     if (bad != ~std::uint64_t{0})
         throw InputError(

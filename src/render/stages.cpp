@@ -13,7 +13,7 @@ bool showsOnePass(const World& world) {
 }
 
 std::vector<std::string> withDevice(std::vector<std::string> defines, const Device& device) {
-    defines.push_back("VW=" + std::to_string(device.body().vectorWidth()));
+    defines.push_back(vectorDefine(device));
     if (device.info().platform == "Portable Computing Language" && device.info().type == "cpu")
         defines.emplace_back("PREFETCH");
     return defines;
@@ -200,10 +200,7 @@ void Stages::transform() {
 
 std::uint32_t Stages::readNumber(const cl::Buffer& buffer, size_t index) {
     std::uint32_t number = 0;
-    checked(device_.body(), "reading a count", [&] {
-        device_.body().queue.enqueueReadBuffer(buffer, CL_TRUE, index * sizeof number, sizeof number,
-                                               &number);
-    });
+    readElements(device_, buffer, index, 1, &number, "reading a count");
     return number;
 }
 
