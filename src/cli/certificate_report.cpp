@@ -66,12 +66,14 @@ std::string inWords(const Certificate& c) {
         "certificate         {} of {} pixels (seed {}) against the reference; intervals at {} % confidence\n"
         "CIEDE2000           mean {}, 95 % {}, 99 % {}, largest found {} at {},{} (white {} at Y = {}, {})\n"
         "                    at most {} % of the pixels are beyond the largest found\n"
-        "band error          mean {} %, 99 % {} %, largest found {} % of the band's largest value\n",
+        "band error          mean {} %, 99 % {} %, largest found {} % of the band's largest value\n"
+        "pixels' whole area  {} of them with {} samples: CIEDE2000 mean {}, 99 % {}; band error 99 % {} %\n",
         c.pixels, c.population, c.seed, shortest(100 * certificateConfidence), within(c.colour.mean),
         within(c.colour.p95), within(c.colour.p99), rounded(c.colour.largest, 3), c.worst.x, c.worst.y,
         c.white.name, rounded(c.white.xyz[1], 5), c.observer, rounded(100 * c.colour.shareBeyond, 2),
         rounded(100 * c.bands.mean.value, 3), rounded(100 * c.bands.p99.value, 3),
-        rounded(100 * c.bands.largest, 3));
+        rounded(100 * c.bands.largest, 3), c.areaPixels, areaSamples, within(c.areaColour.mean),
+        within(c.areaColour.p99), rounded(100 * c.areaBands.p99.value, 3));
 }
 
 Json described(const Certificate& c) {
@@ -84,6 +86,11 @@ Json described(const Certificate& c) {
             {"deltae00", described(c.colour)},
             {"max_at", {c.worst.x, c.worst.y}},
             {"band_relative", described(c.bands)},
+            {"area",
+             {{"pixels", c.areaPixels},
+              {"samples", areaSamples},
+              {"deltae00", described(c.areaColour)},
+              {"band_relative", described(c.areaBands)}}},
             {"taken_over", c.taken}};
 }
 
@@ -101,7 +108,11 @@ std::map<std::string, std::string> attributesOf(const Certificate& c) {
              fmt::format("{} found at {},{}; at most {} % of the pixels beyond", rounded(c.colour.largest, 3),
                          c.worst.x, c.worst.y, rounded(100 * c.colour.shareBeyond, 2))},
             {"verifyBandError", fmt::format("mean {}, 99 % {}, {} found", within(c.bands.mean),
-                                            within(c.bands.p99), rounded(c.bands.largest, 3))}};
+                                            within(c.bands.p99), rounded(c.bands.largest, 3))},
+            {"verifyArea",
+             fmt::format("{} of these pixels with {} samples: CIEDE2000 mean {}, 99 % {}; band error 99 % {}",
+                         c.areaPixels, areaSamples, within(c.areaColour.mean), within(c.areaColour.p99),
+                         within(c.areaBands.p99))}};
 }
 
 namespace {

@@ -4,9 +4,11 @@
 #include "cli/console.h"
 #include "cli/observation.h"
 #include "cli/options.h"
+#include "colour/develop.h"
 #include "colour/difference.h"
 #include "image/cube.h"
 #include "image/picture.h"
+#include "verify/tolerance.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,21 +17,28 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace spectrad {
 
 namespace {
 
 struct CompareArguments {
-    std::string a, b, maxDeltaE, map, adapt = "cat16";
+    std::string a, b, maxDeltaE, tolerance, map, adapt = "cat16";
     ObserverArguments observer;
     std::vector<std::string> observers;  ///< of A and of B, each adapted to its own white
     bool colours = false;                ///< not the bands: they may be others
     bool json = false, quiet = false;
 };
 
+struct Bands {
+    BandDifference all;
+    /// Of each pixel the largest error of a band ÷ A's largest value in that band.
+    double mean = 0, p95 = 0, p99 = 0;
+};
+
 struct Result {
-    std::optional<BandDifference> bands;     ///< nothing with --colours
+    std::optional<Bands> bands;              ///< nothing with --colours
     std::optional<ColourDifference> colour;  ///< nothing where A is black and --white has no luminance
     White white;
 };
@@ -57,11 +66,16 @@ void requireComparable(const CubeInfo& a, const CubeInfo& b, bool bands, Notes& 
                                name(a.wavelengths.projection), name(b.wavelengths.projection)));
 }
 
-BandDifference bandDifference(const Cube& a, const Cube& b) {
+Bands bandDifference(const Cube& a, const Cube& b) {
     BandDifferenceMeter meter(a.info.wavelengths.size(), a.info.width);
     for (int y = 0; y < a.info.height; ++y)
         meter.add(a.row(y, 0), b.row(y, 0));
-    return meter.result();
+    std::vector<double> errors;
+    for (int y = 0; y < a.info.height; ++y)
+        meter.relativeErrors(a.row(y, 0), b.row(y, 0), errors);
+    const double sum = std::accumulate(errors.begin(), errors.end(), 0.0);
+    return {meter.result(), sum / static_cast<double>(errors.size()), quantile(errors, 0.95),
+            quantile(errors, 0.99)};
 }
 
 /// XYZ of a cube seen by one observer, adapted from its own white to equal energy; the white's luminance, or
@@ -86,7 +100,6 @@ ChannelImage adapted(const ObserverArguments& observer, Adaptation method, const
 /// What two observers make of two cubes (or of one), or one observer of two lights, each adapted.
 Result compareObservers(const CompareArguments& arguments, const Cube& a, const Cube& b, Notes& notes) {
     Result result;
-    if (!arguments.colours) result.bands = bandDifference(a, b);
     const Adaptation method = asUsage("--adapt", [&] { return parseAdaptation(arguments.adapt); });
     ObserverArguments first = arguments.observer, second = arguments.observer;
     first.observer = arguments.observers[0];
@@ -103,7 +116,6 @@ Result compareObservers(const CompareArguments& arguments, const Cube& a, const 
 
 Result compareCubes(const CompareArguments& arguments, const Cube& a, const Cube& b, Notes& notes) {
     Result result;
-    if (!arguments.colours) result.bands = bandDifference(a, b);
     const Observation seesA(arguments.observer, a.info, notes), seesB(arguments.observer, b.info, notes);
     const ChannelImage xyzA = seesA.xyz(seesA.channels(a)), xyzB = seesB.xyz(seesB.channels(b));
     result.white = seesA.white(xyzA);
@@ -124,10 +136,15 @@ void writeMap(const std::string& file, const CubeInfo& info, const ColourDiffere
 
 /// Bands' figures are undefined with --colours, and the shapes' where no pixel has a shape in both.
 Json described(const Result& result, const CompareArguments& arguments) {
-    const BandDifference* bands = result.bands ? &*result.bands : nullptr;
+    const BandDifference* bands = result.bands ? &result.bands->all : nullptr;
     const bool shapes = bands && bands->compared > 0;
     Json out{{"band_rmse", bands ? Json(bands->rmse) : Json()},
              {"band_relative_max", bands ? Json(bands->relativeMax) : Json()},
+             {"band_relative", bands ? Json{{"mean", result.bands->mean},
+                                            {"p95", result.bands->p95},
+                                            {"p99", result.bands->p99},
+                                            {"max", bands->relativeMax}}
+                                     : Json()},
              {"gfc_min", shapes ? Json(bands->gfcMin) : Json()},
              {"spectral_angle_max_rad", shapes ? Json(bands->spectralAngleMax) : Json()},
              {"black_in_one", bands ? Json(bands->blackInOne) : Json()}};
@@ -152,11 +169,14 @@ Json described(const Result& result, const CompareArguments& arguments) {
     return out;
 }
 
-void printBands(const BandDifference& bands, const CubeInfo& info) {
+void printBands(const Bands& of, const CubeInfo& info) {
+    const BandDifference& bands = of.all;
     printText(fmt::format("band rmse            {} {}\n", rounded(bands.rmse, 6), unit(info.kind)));
     if (std::isfinite(bands.relativeMax))
-        printText(fmt::format("band relative max    {} (at {} nm)\n", rounded(bands.relativeMax, 6),
-                              rounded(info.wavelengths.nm.at(bands.relativeMaxBand), 9)));
+        printText(fmt::format(
+            "band relative max    {} (at {} nm); of pixels' largest: mean {}, 95 % {}, 99 % {}\n",
+            rounded(bands.relativeMax, 6), rounded(info.wavelengths.nm.at(bands.relativeMaxBand), 9),
+            rounded(of.mean, 4), rounded(of.p95, 4), rounded(of.p99, 4)));
     else
         printText(fmt::format("band relative max    undefined (A is zero at {} nm, B is not)\n",
                               rounded(info.wavelengths.nm.at(bands.relativeMaxBand), 9)));
@@ -184,7 +204,7 @@ void printTable(const Result& result, const CompareArguments& arguments, const C
 /// Beyond the bound, or without a difference to hold against it although the cubes are not the same.
 ExitCode judged(const Result& result, double bound) {
     if (!result.colour) {
-        if (result.bands && result.bands->rmse == 0) return ExitCode::ok;
+        if (result.bands && result.bands->all.rmse == 0) return ExitCode::ok;
         printError("the colour difference is undefined, so it is not within the bound");
         return ExitCode::input;
     }
@@ -194,11 +214,28 @@ ExitCode judged(const Result& result, double bound) {
     return ExitCode::input;
 }
 
+/// The largest or the 99 % figure of the pair that the tolerance is about.
+ExitCode judged(const Result& result, const Tolerance& tolerance) {
+    if (!tolerance.radiance && !result.colour) return judged(result, tolerance.bound);
+    const double got = tolerance.radiance
+                           ? (tolerance.all ? result.bands->all.relativeMax : result.bands->p99)
+                           : (tolerance.all ? result.colour->max : result.colour->p99);
+    if (got <= tolerance.bound) return ExitCode::ok;
+    printError(fmt::format("beyond the tolerance ({}): {}", tolerance.words(),
+                           tolerance.radiance ? rounded(100 * got, 6) + " %" : rounded(got, 6)));
+    return ExitCode::input;
+}
+
 ExitCode compare(const CompareArguments& arguments) {
     constexpr double infinity = std::numeric_limits<double>::max();
     const double bound = arguments.maxDeltaE.empty()
                              ? infinity
                              : parseNumber("--max-deltae", arguments.maxDeltaE, 0, infinity);
+    std::optional<Tolerance> tolerance;
+    if (!arguments.tolerance.empty())
+        tolerance = asUsage("--tolerance", [&] { return parseTolerance(arguments.tolerance); });
+    if (tolerance && tolerance->radiance && arguments.colours)
+        throw UsageError("--tolerance: bands are not compared with --colours");
     if (!arguments.map.empty()) {
         if (extensionOf(arguments.map) != ".png")
             throw UsageError("--map: '" + arguments.map + "' must end in .png");
@@ -211,15 +248,17 @@ ExitCode compare(const CompareArguments& arguments) {
     const Cube a = readCube(arguments.a, console.notes()),
                b = readCube(arguments.b.empty() ? arguments.a : arguments.b, console.notes());
     requireComparable(a.info, b.info, !arguments.colours, console.notes());
-    const Result result = two ? compareObservers(arguments, a, b, console.notes())
-                              : compareCubes(arguments, a, b, console.notes());
+    Result result = two ? compareObservers(arguments, a, b, console.notes())
+                        : compareCubes(arguments, a, b, console.notes());
+    if (!arguments.colours) result.bands = bandDifference(a, b);
     console.printNotes();
     if (!arguments.map.empty() && result.colour) writeMap(arguments.map, a.info, *result.colour);
     if (arguments.json)
         printJson(described(result, arguments));
     else
         printTable(result, arguments, a.info);
-    return arguments.maxDeltaE.empty() ? ExitCode::ok : judged(result, bound);
+    const ExitCode far = arguments.maxDeltaE.empty() ? ExitCode::ok : judged(result, bound);
+    return far == ExitCode::ok && tolerance ? judged(result, *tolerance) : far;
 }
 
 }  // namespace
@@ -246,6 +285,11 @@ void addCompare(CLI::App& app, Action& action) {
                      "exit with 1 if CIEDE2000 of any pixel is beyond this")
         ->type_name("X");
     command
+        ->add_option("--tolerance", arguments->tolerance,
+                     "exit with 1 beyond it: 0.5 (CIEDE2000 of 99 % of the pixels), max:0.5 (of all), 1%rad "
+                     "(bands' radiance), max:1%rad")
+        ->type_name("T");
+    command
         ->add_option("--map", arguments->map,
                      "write CIEDE2000 of each pixel in false colours; the range is printed")
         ->type_name("OUT.png");
@@ -255,11 +299,13 @@ void addCompare(CLI::App& app, Action& action) {
     command->add_flag("-q,--quiet", arguments->quiet, "no remarks on standard error");
     command->footer(
         "band rmse: root mean square of A - B over pixels and bands, in the cubes' unit "
-        "(W.m^-2.sr^-1.nm^-1). band relative max: the largest |A - B| of a band by A's largest value in it. "
+        "(W.m^-2.sr^-1.nm^-1). band relative max: the largest |A - B| of a band by A's largest value in it; "
+        "each pixel has one such band: their mean and quantiles. "
         "gfc: goodness of fit, the cosine between two pixels' spectra; spectral angle: in rad. A white "
         "without luminance counts at A's brightest Y.\n\n"
         "Examples:\n"
         "  spectrad compare reference.exr new.exr --max-deltae 0.5\n"
+        "  spectrad compare reference.exr new.exr --tolerance 1%rad\n"
         "  spectrad compare every-nm.exr ten-bands.exr --colours --json\n"
         "  spectrad compare a.exr --observers cie1931-2 nikon-5100 --map camera.png\n"
         "  spectrad compare daylight.exr tungsten.exr --observers cie1931-2 cie1931-2\n"

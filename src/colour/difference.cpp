@@ -106,6 +106,16 @@ BandDifference BandDifferenceMeter::result() const {
     return result;
 }
 
+void BandDifferenceMeter::relativeErrors(const float* a, const float* b, std::vector<double>& out) const {
+    const size_t first = out.size();
+    out.resize(first + width_, 0.0);
+    for (size_t j = 0; j < bands_; ++j)
+        for (size_t x = 0; x < width_; ++x) {
+            const double off = std::abs(double{a[j * width_ + x]} - double{b[j * width_ + x]});
+            if (off > 0) out[first + x] = std::max(out[first + x], off / largestA_[j]);
+        }
+}
+
 ColourDifference colourDifference(const ChannelImage& a, const ChannelImage& b, const Triple& white) {
     if (a.width != b.width || a.height != b.height)
         throw InputError("images of different size cannot be compared: " + std::to_string(a.width) + "x" +

@@ -30,6 +30,9 @@ class BandDifferenceMeter {
     /// One row of each, [band][x]. Throws InputError for a value that is not finite.
     void add(const float* a, const float* b);
     [[nodiscard]] BandDifference result() const;
+    /// Of each pixel of a row the largest |A − B| of a band ÷ A's largest |value| in that band, over all rows
+    /// that were added: appended to `out`.
+    void relativeErrors(const float* a, const float* b, std::vector<double>& out) const;
 
   private:
     void addShapes(const float* a, const float* b, size_t from, size_t count);

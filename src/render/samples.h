@@ -10,8 +10,8 @@ namespace spectrad {
 
 inline constexpr int maxSamples = 64;
 
-/// Offsets in SD_SUBPIXEL-ths of a pixel, 0…255, for 1…64 samples: a rank-1 lattice whose points are as far
-/// apart as such a lattice allows (seen as tiling the plane); one sample is the pixel's centre.
+/// Offsets in SD_SUBPIXEL-ths of a pixel, 0…255: a rank-1 lattice whose points are as far apart as such a
+/// lattice allows (seen as tiling the plane); one sample is the pixel's centre. Images have 1…maxSamples.
 struct SamplePattern {
     std::vector<std::int32_t> x, y;
 };

@@ -84,6 +84,34 @@ White defaultWhite(const Scene& scene, const RenderSettings& settings, const Det
     return withLuminance({plan.whiteName, plan.white, false}, luminance);
 }
 
+namespace {
+
+/// How far pixels of an image are from what they should be.
+class Judge {
+  public:
+    Judge(const PixelSample& sample, const White& white) : sample_(sample), white_(white) {}
+
+    void hold(size_t pixel, const ReferencePixel& right) {
+        colour.push_back(deltaE00(lab(right.xyz, white_.xyz), lab(sample_.xyzOf(pixel), white_.xyz)));
+        double most = 0;
+        for (size_t band = 0; band < right.bands.size(); ++band) {
+            const double off = std::abs(sample_.bandsOf(pixel)[band] - right.bands[band]),
+                         largest = sample_.largest()[band];
+            // A band that is black all over in the image takes the reference as its measure.
+            if (off > 0) most = std::max(most, off / (largest > 0 ? largest : right.bands[band]));
+        }
+        bands.push_back(most);
+    }
+
+    std::vector<double> colour, bands;
+
+  private:
+    const PixelSample& sample_;
+    const White& white_;
+};
+
+}  // namespace
+
 Certificate certify(const PixelSample& sample, const Reference& reference, const Detector& observer,
                     const White& white, const Progress& progress) {
     const CubeInfo& info = sample.info();
@@ -97,28 +125,36 @@ Certificate certify(const PixelSample& sample, const Reference& reference, const
     out.pixels = sample.places().size();
     out.population = static_cast<size_t>(info.width) * static_cast<size_t>(info.height);
     out.taken = reference.taken();
-    const std::vector<ReferencePixel> right = reference.at(sample.places(), progress);
-    std::vector<double> colour, bands;
-    double worst = -1;
-    for (size_t i = 0; i < right.size(); ++i) {
-        const double difference = deltaE00(lab(right[i].xyz, white.xyz), lab(sample.xyzOf(i), white.xyz));
-        if (difference > worst) {
-            worst = difference;
-            out.worst = sample.places()[i];
-        }
-        colour.push_back(difference);
-        double most = 0;
-        for (size_t band = 0; band < right[i].bands.size(); ++band) {
-            const double off = std::abs(sample.bandsOf(i)[band] - right[i].bands[band]);
-            // A band that is black all over in the image takes the reference as its measure.
-            const double scale =
-                std::max(sample.largest()[band], sample.largest()[band] > 0 ? 0 : right[i].bands[band]);
-            if (off > 0) most = std::max(most, off / scale);
-        }
-        bands.push_back(most);
-    }
-    out.colour = estimate(std::move(colour), out.population, certificateConfidence);
-    out.bands = estimate(std::move(bands), out.population, certificateConfidence);
+
+    // A random share of pixels drawn at random is one of the image's pixels.
+    const std::vector<std::uint64_t> few = drawn(out.pixels, mostAreaPixels, out.seed);
+    out.areaPixels = few.size();
+    std::vector<PixelPlace> whole;
+    for (std::uint64_t pixel : few)
+        whole.push_back(sample.places()[pixel]);
+    const double work = static_cast<double>(out.pixels) * referenceSamples,
+                 more = static_cast<double>(few.size()) * areaSamples;
+    const auto share = [&](double from, double of) {
+        return [&progress, from, of, all = work + more](double done) {
+            if (progress) progress((from + of * done) / all);
+        };
+    };
+    const std::vector<ReferencePixel> right = reference.at(sample.places(), referenceSamples, share(0, work)),
+                                      fine = reference.at(whole, areaSamples, share(work, more));
+    Judge judge(sample, white), areas(sample, white);
+    for (size_t i = 0; i < right.size(); ++i)
+        judge.hold(i, right[i]);
+    for (size_t i = 0; i < fine.size(); ++i)
+        areas.hold(few[i], fine[i]);
+    const auto worst = std::max_element(judge.colour.begin(), judge.colour.end());
+    out.worst = sample.places()[static_cast<size_t>(worst - judge.colour.begin())];
+    const auto all = [&](std::vector<double> values) {
+        return estimate(std::move(values), out.population, certificateConfidence);
+    };
+    out.colour = all(std::move(judge.colour));
+    out.bands = all(std::move(judge.bands));
+    out.areaColour = all(std::move(areas.colour));
+    out.areaBands = all(std::move(areas.bands));
     return out;
 }
 

@@ -14,6 +14,8 @@ namespace spectrad {
 inline constexpr double certificateConfidence = 0.99;
 /// Fewer pixels bound no quantile: a share that would be less takes so many, or all.
 inline constexpr size_t fewestPixels = 1000;
+/// At most so many of them are held against their whole area too.
+inline constexpr size_t mostAreaPixels = 4000;
 
 struct Certificate {
     std::string observer;
@@ -24,7 +26,9 @@ struct Certificate {
     PixelPlace worst;                   ///< where the largest found is
     /// Of each pixel the largest |image − reference| of a band ÷ the image's largest value in that band.
     Estimates bands;
-    std::vector<std::string> taken;  ///< what the reference takes from the renderer
+    std::vector<std::string> taken;   ///< what the reference takes from the renderer
+    size_t areaPixels = 0;            ///< of those judged, also with areaSamples a pixel:
+    Estimates areaColour, areaBands;  ///< the same two, which the reference's own samples do not flatter
 };
 
 /// Draws the pixels of an image and picks their bands out of its rows.

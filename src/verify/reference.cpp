@@ -81,29 +81,30 @@ Reference::Reference(const Scene& scene, const RenderSettings& settings, const W
     vertices_ = scalar::transform<double>(wide_.world, frame_);
 }
 
-void Reference::shadePixel(const Plan& plan, const sd_frame& frame, const PixelPlace& place,
+void Reference::shadePixel(const Plan& plan, const PixelPlace& place, const SamplePattern& pattern,
                            const std::uint32_t* seen, std::vector<double>& g) const {
-    static const SamplePattern pattern = samplePattern(referenceSamples);
     g.assign(plan.terms.count(), 0.0);
     const World& world = plan.world;
-    for (size_t k = 0; k < static_cast<size_t>(referenceSamples); ++k) {
-        const double x = place.x * SD_SUBPIXEL - frame.width * (SD_SUBPIXEL / 2) + pattern.x[k],
-                     y = place.y * SD_SUBPIXEL - frame.height * (SD_SUBPIXEL / 2) + pattern.y[k];
+    const size_t samples = pattern.x.size();
+    for (size_t k = 0; k < samples; ++k) {
+        const double x = place.x * SD_SUBPIXEL - frame_.width * (SD_SUBPIXEL / 2) + pattern.x[k],
+                     y = place.y * SD_SUBPIXEL - frame_.height * (SD_SUBPIXEL / 2) + pattern.y[k];
         const sd_material& material =
             world.materials[seen[k] == scalar::noTriangle ? 0 : world.triangleMaterial[seen[k]]];
         const auto add = [&](size_t, std::uint32_t term, double value, bool) {
             g[material.first_term + term] += value;
         };
-        scalar::shadeSample<double>(plan, vertices_, frame, material, seen[k], x, y, add);
+        scalar::shadeSample<double>(plan, vertices_, frame_, material, seen[k], x, y, add);
     }
     for (double& value : g)
-        value /= referenceSamples;
+        value /= static_cast<double>(samples);
 }
 
-std::vector<ReferencePixel> Reference::at(std::span<const PixelPlace> places,
+std::vector<ReferencePixel> Reference::at(std::span<const PixelPlace> places, int samples,
                                           const Progress& progress) const {
-    constexpr size_t chunk = 1024;  // pixels whose samples a thread keeps at once
-    const SamplePattern pattern = samplePattern(referenceSamples);
+    // Pixels whose samples a thread keeps at once.
+    const size_t chunk = std::max<size_t>(1, 1024 * size_t{referenceSamples} / static_cast<size_t>(samples));
+    const SamplePattern pattern = samplePattern(samples);
     std::vector<ReferencePixel> out(places.size());
     std::mutex reporting;
     size_t done = 0;
@@ -113,7 +114,7 @@ std::vector<ReferencePixel> Reference::at(std::span<const PixelPlace> places,
         const std::vector<std::uint32_t> seen = trianglesSeen(wide_.world, vertices_, frame_, pattern, some);
         std::vector<double> g;
         for (size_t i = 0; i < some.size(); ++i)
-            out[first + i] = pixelAt(some[i], seen.data() + i * pattern.x.size(), g);
+            out[first + i] = pixelAt(some[i], pattern, seen.data() + i * pattern.x.size(), g);
         const std::lock_guard lock(reporting);
         done += some.size();
         if (progress) progress(static_cast<double>(done) / static_cast<double>(places.size()));
@@ -121,14 +122,14 @@ std::vector<ReferencePixel> Reference::at(std::span<const PixelPlace> places,
     return out;
 }
 
-ReferencePixel Reference::pixelAt(const PixelPlace& place, const std::uint32_t* seen,
-                                  std::vector<double>& g) const {
+ReferencePixel Reference::pixelAt(const PixelPlace& place, const SamplePattern& pattern,
+                                  const std::uint32_t* seen, std::vector<double>& g) const {
     ReferencePixel pixel;
-    shadePixel(wide_, frame_, place, seen, g);
+    shadePixel(wide_, place, pattern, seen, g);
     for (size_t t = 0; t < g.size(); ++t)
         for (size_t c = 0; c < 3 && g[t] != 0; ++c)
             pixel.xyz[c] += g[t] * wide_.terms.exactChannels[3 * t + c];
-    if (!sameLobes_) shadePixel(own_, frame_, place, seen, g);
+    if (!sameLobes_) shadePixel(own_, place, pattern, seen, g);
     const size_t bands = own_.terms.bands;
     pixel.bands.assign(bands, 0.0);
     for (size_t t = 0; t < g.size(); ++t)

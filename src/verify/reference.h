@@ -14,6 +14,8 @@ namespace spectrad {
 
 /// Samples a pixel of the reference: as many as an image can have.
 inline constexpr int referenceSamples = maxSamples;
+/// Samples a pixel that stand for its whole area: an edge anywhere in it is met within 0.1 %.
+inline constexpr int areaSamples = 1024;
 /// Wavelengths that passes of a reference are rendered at: every nanometre of the visible and of `grid`.
 [[nodiscard]] Wavelengths referenceWavelengths(const Wavelengths& grid);
 
@@ -32,9 +34,10 @@ class Reference {
 
     [[nodiscard]] int width() const { return wide_.view.width; }
     [[nodiscard]] int height() const { return wide_.view.height; }
-    /// `places` ascend by y, then x. On all cores; each pixel's sums have one order, so the result is the
-    /// same on any number of them.
+    /// `places` ascend by y, then x; with `samples` a pixel, each of which counts. On all cores; each pixel's
+    /// sums have one order, so the result is the same on any number of them.
     [[nodiscard]] std::vector<ReferencePixel> at(std::span<const PixelPlace> places,
+                                                 int samples = referenceSamples,
                                                  const Progress& progress = {}) const;
     /// What it takes from the renderer instead of computing it itself, one line each: passes.
     [[nodiscard]] const std::vector<std::string>& taken() const { return taken_; }
@@ -43,10 +46,10 @@ class Reference {
     [[nodiscard]] const Triple& white() const { return wide_.white; }
 
   private:
-    /// What its samples `seen` (triangles) add up to; `g` is scratch.
-    [[nodiscard]] ReferencePixel pixelAt(const PixelPlace& place, const std::uint32_t* seen,
-                                         std::vector<double>& g) const;
-    void shadePixel(const Plan& plan, const sd_frame& frame, const PixelPlace& place,
+    /// What the triangles `seen` by its samples add up to; `g` is scratch.
+    [[nodiscard]] ReferencePixel pixelAt(const PixelPlace& place, const SamplePattern& pattern,
+                                         const std::uint32_t* seen, std::vector<double>& g) const;
+    void shadePixel(const Plan& plan, const PixelPlace& place, const SamplePattern& pattern,
                     const std::uint32_t* seen, std::vector<double>& g) const;
 
     Plan wide_;       ///< over all that an eye sees: its exact channels count

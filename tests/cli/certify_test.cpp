@@ -33,6 +33,10 @@ void checkCertificate(const json& c) {
     }
     CHECK(d.at("max").at("found") >= d.at("p99").at("value"));
     CHECK(c.at("band_relative").at("p99").at("value").is_number());
+    CHECK(c.at("area").at("pixels") == 1000);
+    CHECK(c.at("area").at("samples") == 1024);
+    CHECK(c.at("area").at("deltae00").at("p99").at("value").is_number());
+    CHECK(c.at("area").at("band_relative").at("p99").at("value").is_number());
 }
 
 }  // namespace
@@ -54,7 +58,7 @@ TEST_CASE("--verify writes what it found into the file and prints it; the pixels
     CHECK(a.values == b.values);
     for (const char* key :
          {"verifyPixels", "verifyConfidence", "verifyObserver", "verifyWhite", "verifyDeltaE00Mean",
-          "verifyDeltaE00P95", "verifyDeltaE00P99", "verifyDeltaE00Max", "verifyBandError"}) {
+          "verifyDeltaE00P95", "verifyDeltaE00P99", "verifyDeltaE00Max", "verifyBandError", "verifyArea"}) {
         CHECK(b.info.attributes.contains(key));
         CHECK_FALSE(a.info.attributes.contains(key));
     }

@@ -279,6 +279,11 @@ TEST_CASE("compare measures a difference that is known, and ends with 1 beyond t
     const json result = outcome.json();
     CHECK(result.at("band_relative_max").get<double>() == Approx(0.25));
     CHECK(result.at("band_rmse").get<double>() == Approx(0.0625 / std::sqrt(48.0)));
+    const json& errors = result.at("band_relative");  // one pixel of 48
+    CHECK(errors.at("mean").get<double>() == Approx(0.25 / 48));
+    CHECK(errors.at("p95") == 0);
+    CHECK(errors.at("p99").get<double>() == Approx(0.25 * 0.53));  // 0.99 × 47 = 46.53 of places 0 to 47
+    CHECK(errors.at("max") == result.at("band_relative_max"));
     CHECK(result.at("spectral_angle_max_rad").get<double>() == Approx(0).margin(1e-7));
     CHECK(result.at("deltae00").at("max_at") == json({7, 3}));
     const double worst = result.at("deltae00").at("max");
@@ -292,6 +297,16 @@ TEST_CASE("compare measures a difference that is known, and ends with 1 beyond t
     CHECK_THAT(beyond.out, Catch::Contains("CIEDE2000"));
     CHECK(cli::isOneLine(beyond.err));
     CHECK(run(folder, {"compare", "a.exr", "b.exr", "--max-deltae", "99"}).code == 0);
+    for (const char* kept : {"99", "max:99", "14%rad", "max:26%rad"})
+        CHECK(run(folder, {"compare", "a.exr", "b.exr", "--tolerance", kept}).code == 0);
+    for (const char* broken : {"1", "max:1", "13%rad", "max:24%rad"}) {
+        const Outcome far = run(folder, {"compare", "a.exr", "b.exr", "--tolerance", broken});
+        CHECK(far.code == 1);
+        CHECK(cli::isOneLine(far.err));
+        CHECK_THAT(far.err, Catch::Contains("beyond the tolerance ("));
+    }
+    requireError(run(folder, {"compare", "a.exr", "b.exr", "--tolerance", "much"}), 2, "--tolerance");
+    requireError(run(folder, {"compare", "a.exr", "b.exr", "--colours", "--tolerance", "1%rad"}), 2, "bands");
 }
 
 TEST_CASE("compare says which of size, wavelengths and quantity differ") {

@@ -89,6 +89,36 @@ TEST_CASE("the reference of a pixel is the same bits among all pixels, on all co
     }
 }
 
+TEST_CASE("with the samples of a pixel's area an edge is met within 0.1 %, and a certificate says it") {
+    // A white wall whose edge, 37.5/256 of a pixel off the middle of the image, leans by a 7th of a pixel.
+    JudgedScene s(R"(<scene version="1"><wavelengths from="500" to="600" step="50"/>
+      <material name="m"><diffuse reflectance="constant:1"/></material>
+      <node translate="0.5732421875 0 0" rotate="0 0 1 2.0454"><plane size="1 9" material="m"/></node>
+      <light type="directional" direction="0 0 -1" spectrum="illuminants/E" illuminance="1000 lx"/>
+      <camera name="c" type="orthographic" height="2" look-from="0 0 5" look-at="0 0 0" size="4x4"/></scene>)");
+    const Reference reference(s.scene, {}, s.plan().wavelengths, s.observer, s.library, s.device);
+    const std::vector<PixelPlace> row{{2, 2}, {3, 2}};
+    const std::vector<ReferencePixel> area = reference.at(row, areaSamples);
+    // The plane's left edge crosses pixel (2, 2), whose sides are half a metre long and whose left one is
+    // x = 0, its middle y = −0.25: covered is what lies to the right of the edge there.
+    const double angle = 2.0454 * std::numbers::pi / 180,
+                 edge = 0.5732421875 - 0.5 / std::cos(angle) + 0.25 * std::tan(angle),
+                 covered = 1 - edge / 0.5;
+    REQUIRE(covered > 0.6);
+    REQUIRE(covered < 0.95);
+    CHECK(area[0].bands[1] / area[1].bands[1] == Approx(covered).margin(1e-3));
+
+    RenderSettings one, most;
+    one.samples = 1;
+    most.samples = referenceSamples;
+    const Certificate rough = s.certificate(s.image(one), 1), fine = s.certificate(s.image(most), 1);
+    REQUIRE(rough.areaPixels == rough.population);
+    CHECK(rough.areaBands.largest > 0.1);
+    CHECK(fine.bands.largest < 1e-6);      // the reference has the same samples
+    CHECK(fine.areaBands.largest > 1e-4);  // which leave this of the pixel
+    CHECK(fine.areaBands.largest < 3.0 / 64);
+}
+
 TEST_CASE("a scene of one bad sample a pixel is told from one of many") {
     JudgedScene s(everything);
     RenderSettings coarse, fine;
