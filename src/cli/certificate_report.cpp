@@ -133,11 +133,16 @@ std::string inWords(const Chosen& chosen, const std::string& asked) {
     return text;
 }
 
-Json described(const Chosen& chosen, const std::string& asked, const std::string& observer) {
+Json described(const Chosen& chosen, const Certificate& certificate, const std::string& asked) {
+    const Verdict verdict = judged(certificate, parseTolerance(asked));
     Json choices = Json::array();
     for (const Choice& choice : chosen.choices)
         choices.push_back({{"choice", choice.what}, {"why", choice.why}});
-    Json out{{"asked", asked}, {"met", chosen.met}, {"reached", chosen.reached}, {"observer", observer}};
+    Json out{{"asked", asked},
+             {"met", chosen.met && verdict != Verdict::refuted},
+             {"reached", chosen.reached},
+             {"verdict", name(verdict)},
+             {"observer", certificate.observer}};
     if (!parseTolerance(asked).radiance)
         out["white"] = {{"name", chosen.white.name}, {"XYZ", chosen.white.xyz}};
     out.update({{"tried_at", {chosen.width, chosen.height}},

@@ -29,7 +29,7 @@ struct VerifyArguments {
 
 /// What was chosen for a tolerance, as it was asked for.
 [[nodiscard]] std::string inWords(const Chosen& chosen, const std::string& asked);
-[[nodiscard]] Json described(const Chosen& chosen, const std::string& asked, const std::string& observer);
+[[nodiscard]] Json described(const Chosen& chosen, const Certificate& certificate, const std::string& asked);
 [[nodiscard]] std::map<std::string, std::string> attributesOf(const Chosen& chosen, const std::string& asked);
 /// Exit code 1, with a line that says why, where no settings met it or the certificate refutes it.
 [[nodiscard]] ExitCode toleranceVerdict(const Chosen& chosen, const Certificate& certificate,

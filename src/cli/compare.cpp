@@ -125,6 +125,13 @@ Result compareCubes(const CompareArguments& arguments, const Cube& a, const Cube
         return result;
     }
     result.white = withLuminance(result.white, brightestA);
+    if (std::any_of(result.white.xyz.begin(), result.white.xyz.end(), [](double v) { return !(v > 0); })) {
+        notes.warn(
+            fmt::format("{} has no {}: it cannot be the white of a colour difference (--white gives "
+                        "another)",
+                        result.white.name, result.white.xyz[0] > 0 ? "Z" : "X"));
+        return result;
+    }
     result.colour = colourDifference(xyzA, xyzB, result.white.xyz);
     return result;
 }

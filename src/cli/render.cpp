@@ -350,7 +350,7 @@ ExitCode render(const RenderArguments& arguments) {
         }
         if (chosen) {
             out["seconds"]["choose"] = seconds.choose;
-            out["tolerance"] = described(*chosen, arguments.tolerance, arguments.verify.observer);
+            out["tolerance"] = described(*chosen, judged->certificate, arguments.tolerance);
         }
         printJson(out);
     } else if (!arguments.quiet) {

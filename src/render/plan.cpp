@@ -262,6 +262,30 @@ std::vector<FlatScene::Object> objectsToBake(const Scene& scene, const Bake& bak
     return objects;
 }
 
+/// `seen`: a light's X, Y, Z.
+void setWhites(Plan& plan, const std::vector<LightGroup>& groups,
+               const std::function<Triple(const Curve&)>& seen) {
+    plan.whiteName = plan.labWhiteName = "E";
+    plan.white = plan.labWhite = {1, 1, 1};
+    for (const LightGroup& group : groups) {
+        Triple xyz = seen(group.spectrum);
+        const double y = xyz[1];
+        const bool first = &group == &groups.front();
+        if (!(y > 0)) continue;
+        for (double& value : xyz)
+            value /= y;
+        if (first) {
+            plan.whiteName = group.text;
+            plan.white = xyz;
+        }
+        constexpr double least = 1e-3;
+        if (xyz[0] < least || xyz[2] < least) continue;
+        plan.labWhiteName = group.text;
+        plan.labWhite = xyz;
+        return;
+    }
+}
+
 }  // namespace
 
 Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& library,
@@ -302,18 +326,10 @@ Plan makePlan(const Shot& shot, const RenderSettings& settings, const Library& l
     std::vector<std::uint32_t> number;
     const std::vector<const Material*> materials = materialsWorn(scene, flat, number);
     noteExtensions(plan.wavelengths, materials, notes);
-    if (!groups.empty()) {
-        plan.whiteName = groups.front().text;
-        const std::array<const Curve*, 1> light{&groups.front().spectrum};
-        plan.white = settings.eye ? seenXyz(*settings.eye, light) : respondXyz(observer, light);
-    }
-    if (!(plan.white[1] > 0)) {
-        plan.whiteName = "E";
-        plan.white = {1, 1, 1};
-    }
-    const double y = plan.white[1];
-    for (double& value : plan.white)
-        value /= y;
+    setWhites(plan, groups, [&](const Curve& spectrum) {
+        const std::array<const Curve*, 1> light{&spectrum};
+        return settings.eye ? seenXyz(*settings.eye, light) : respondXyz(observer, light);
+    });
 
     plan.groups = static_cast<std::uint32_t>(groups.size());
     const Eye standard = standardEye(library);

@@ -29,6 +29,10 @@ struct Plan {
     std::uint64_t stripBytes = 0;      ///< asked for, or 0
     std::string whiteName;             ///< the first light's spectrum as the user named it, or "E"
     std::array<double, 3> white{};     ///< its XYZ at Y = 1 (CIE 1931)
+    /// The same of the first light that CIELAB can have as its white: X and Z of at least 0.1 % of Y (a line
+    /// beyond 650 nm has no Z at all).
+    std::string labWhiteName;
+    std::array<double, 3> labWhite{};
 
     [[nodiscard]] size_t triangles() const { return world.index.size() / 3; }
     [[nodiscard]] size_t lights() const { return world.lights.size(); }

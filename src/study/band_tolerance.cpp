@@ -17,14 +17,22 @@ float asHalfFloat(float value) {
     return static_cast<float>(Imath::half(value));
 }
 
-/// Of each pixel the largest error of a band ÷ the image's largest value in that band.
+double largestOf(const std::vector<float>& values) {
+    double largest = 0;
+    for (float value : values)
+        largest = std::max(largest, std::abs(double{value}));
+    return largest;
+}
+
+/// Of each pixel the largest error of a band ÷ the largest value in that band of the image or of what is
+/// right, whichever is less: the bound is kept by either measure.
 double bandError(const Choosing& choosing, const Columns& right, const Columns& got, bool asHalf) {
     std::vector<double> worst(right.plane[0].size(), 0.0);
     for (size_t b = 0; b < right.plane.size(); ++b) {
         const std::vector<float>&wanted = right.plane[b], &band = got.plane[b];
-        double largest = 0;
-        for (float value : band)
-            largest = std::max(largest, std::abs(double{value}));
+        const double inBand = largestOf(band), inWanted = largestOf(wanted),
+                     largest =
+                         inBand > 0 && inWanted > 0 ? std::min(inBand, inWanted) : std::max(inBand, inWanted);
         if (!(largest > 0)) continue;
         for (size_t i = 0; i < worst.size(); ++i) {
             const double value = asHalf ? double{asHalfFloat(band[i])} : double{band[i]};
@@ -48,7 +56,13 @@ Chosen chooseForBands(const Choosing& choosing) {
     Columns got;
     double error = 0;
     for (int samples : choosing.sampleCounts()) {
-        got = rendered(choosing.device, withSamples(plan, samples));
+        own.samples = samples;
+        // Passes have as many samples as the picture, so they are rendered anew.
+        const std::optional<Plan> wanted = choosing.scene.passes.empty()
+                                               ? withSamples(plan, samples)
+                                               : choosing.planned(choosing.scene, own);
+        if (!wanted) continue;
+        got = rendered(choosing.device, *wanted);
         error = sampling[samples] = bandError(choosing, right, got, choosing.settings.half);
         out.samples = samples;
         out.met = error <= choosing.tolerance.bound;

@@ -14,6 +14,14 @@ std::vector<int> Choosing::sampleCounts() const {
     return {1, 2, 4, 8, 16, 32, 64};
 }
 
+std::optional<Plan> Choosing::planned(const Scene& of, const RenderSettings& wanted) const {
+    try {
+        return planner(of, wanted);
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
 double Choosing::summed(std::vector<double> errors) const {
     if (tolerance.all) return *std::max_element(errors.begin(), errors.end());
     return quantile(errors, 0.99);

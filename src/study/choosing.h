@@ -23,6 +23,8 @@ struct Choosing {
 
     [[nodiscard]] double pixels() const { return double{1} * width * height; }
     [[nodiscard]] std::vector<int> sampleCounts() const;
+    /// Nothing where a pass cannot be rendered so: few samples may miss the light that it is divided by.
+    [[nodiscard]] std::optional<Plan> planned(const Scene& of, const RenderSettings& wanted) const;
     /// Of each pixel's error the figure that the tolerance bounds.
     [[nodiscard]] double summed(std::vector<double> errors) const;
     [[nodiscard]] Chosen nothingYet() const;  ///< with the picture's size

@@ -54,7 +54,25 @@ class ColourChooser {
     explicit ColourChooser(const Choosing& choosing) : choosing_(choosing), out_(choosing.nothingYet()) {}
 
     Chosen chosen() {
-        chooseForColour();
+        planFine();
+        renderReference();
+        choosing_.progress(0.2);
+        const Taken taken = confirmedBest(candidates());
+        out_.met = taken.met;
+        out_.wavelengths = taken.candidate.grid;
+        out_.samples = taken.candidate.samples;
+        out_.half = taken.half;
+        out_.reached = taken.error;
+        explainSamples();
+        const std::vector<double>& nm = out_.wavelengths.nm;
+        out_.choices.push_back(
+            {fmt::format("{} bands, {} to {} nm", nm.size(), rounded(nm.front(), 9), rounded(nm.back(), 9)),
+             fmt::format("{}; with these samples CIEDE2000 {}", taken.candidate.how,
+                         rounded(taken.candidate.error, 3))});
+        trySchlick(taken.candidate);
+        if (choosing_.settings.mayHalf && !choosing_.settings.half && taken.asHalf)
+            out_.choices.push_back({out_.half ? "half floats" : "whole floats",
+                                    fmt::format("with half floats CIEDE2000 {}", rounded(*taken.asHalf, 3))});
         return out_;
     }
 
@@ -103,9 +121,14 @@ class ColourChooser {
         const double scale = std::min(1.0, std::sqrt(8000 / choosing_.pixels()));
         small.size = {std::max(1, static_cast<int>(out_.width * scale)),
                       std::max(1, static_cast<int>(out_.height * scale))};
-        small.samples = 1;
         small.wavelengths = referenceGrid();
-        const Columns spectra = rendered(choosing_.device, choosing_.planner(choosing_.scene, small));
+        small.samples = 1;
+        std::optional<Plan> plan = choosing_.planned(choosing_.scene, small);
+        if (!plan) {
+            small.samples = 64;
+            plan = choosing_.planner(choosing_.scene, small);
+        }
+        const Columns spectra = rendered(choosing_.device, *plan);
         return paletteOf(spectra.plane, HatDetector(referenceGrid(), choosing_.observer));
     }
 
@@ -161,6 +184,14 @@ class ColourChooser {
         return best;
     }
 
+    /// Scenes whose passes need more samples than that are left out.
+    [[nodiscard]] bool possible(int samples) const {
+        if (choosing_.scene.passes.empty()) return true;
+        RenderSettings wanted = choosing_.asked;
+        wanted.samples = samples;
+        return choosing_.planned(choosing_.scene, wanted).has_value();
+    }
+
     /// Cheapest first; behind them those that are beyond the bound, best first.
     std::vector<Candidate> candidates() {
         std::vector<BandSet> sets;
@@ -176,6 +207,7 @@ class ColourChooser {
         std::map<int, double> seconds;
         const std::vector<float> columns = columnsOf(some);
         for (int samples : choosing_.sampleCounts()) {
+            if (!possible(samples)) continue;
             const Columns xyz =
                 timed(withColumns(withSamples(fine_, samples), columns, 3 * (some.size() + 1)));
             seconds[samples] = std::max(xyz.seconds, 1e-6);
@@ -212,10 +244,13 @@ class ColourChooser {
         double error = 0, seconds = 0;
     };
     Real confirmed(const Scene& scene, const Candidate& candidate, bool asHalf, int rounds = 1) {
+        constexpr double impossible = std::numeric_limits<double>::infinity();
         RenderSettings real = choosing_.asked;
         real.samples = candidate.samples;
         real.wavelengths = candidate.grid;
-        Entry entry{choosing_.planner(scene, real), {}};
+        const std::optional<Plan> plan = choosing_.planned(scene, real);
+        if (!plan) return {impossible, 0};
+        Entry entry{*plan, {}};
         entry.weights = weightsOn(entry.plan.wavelengths, choosing_.observer);
         TrialSettings how;
         how.rounds = rounds;
@@ -225,8 +260,7 @@ class ColourChooser {
             differences[i] = deltaE00(reference_[i], lab(trial.xyz.triple(i), out_.white.xyz));
         const bool finite =
             std::all_of(differences.begin(), differences.end(), [](double d) { return std::isfinite(d); });
-        return {finite ? choosing_.summed(std::move(differences)) : std::numeric_limits<double>::infinity(),
-                trial.renderSeconds};
+        return {finite ? choosing_.summed(std::move(differences)) : impossible, trial.renderSeconds};
     }
 
     struct Taken {
@@ -266,28 +300,6 @@ class ColourChooser {
             if (!choosing_.settings.half) tryAs(false);
         }
         return *best;
-    }
-
-    void chooseForColour() {
-        planFine();
-        renderReference();
-        choosing_.progress(0.2);
-        const Taken taken = confirmedBest(candidates());
-        out_.met = taken.met;
-        out_.wavelengths = taken.candidate.grid;
-        out_.samples = taken.candidate.samples;
-        out_.half = taken.half;
-        out_.reached = taken.error;
-        explainSamples();
-        const std::vector<double>& nm = out_.wavelengths.nm;
-        out_.choices.push_back(
-            {fmt::format("{} bands, {} to {} nm", nm.size(), rounded(nm.front(), 9), rounded(nm.back(), 9)),
-             fmt::format("{}; with these samples CIEDE2000 {}", taken.candidate.how,
-                         rounded(taken.candidate.error, 3))});
-        trySchlick(taken.candidate);
-        if (choosing_.settings.mayHalf && !choosing_.settings.half && taken.asHalf)
-            out_.choices.push_back({out_.half ? "half floats" : "whole floats",
-                                    fmt::format("with half floats CIEDE2000 {}", rounded(*taken.asHalf, 3))});
     }
 
     void explainSamples() {

@@ -81,7 +81,7 @@ White defaultWhite(const Scene& scene, const RenderSettings& settings, const Det
     });
     const double luminance = diffuse > 0 ? std::min(brightest, diffuse) : brightest;
     if (!(luminance > 0)) throw InputError("the image is black: there is no white for a colour difference");
-    return withLuminance({plan.whiteName, plan.white, false}, luminance);
+    return withLuminance({plan.labWhiteName, plan.labWhite, false}, luminance);
 }
 
 namespace {

@@ -61,9 +61,9 @@ class PixelSample {
 };
 
 /// The white that colour differences are seen against where nobody says: the chromaticity of the scene's
-/// first light; the luminance of the image's brightest pixel, but no more than the brightest place would have
-/// if every surface were a perfect white diffuser under the scene's lights (a highlight is no white). Throws
-/// InputError for an image without light.
+/// first light that has enough X and Z (Plan::labWhite); the luminance of the image's brightest pixel, but no
+/// more than the brightest place would have if every surface were a perfect white diffuser under the scene's
+/// lights (a highlight is no white). Throws InputError for an image without light.
 [[nodiscard]] White defaultWhite(const Scene& scene, const RenderSettings& settings, const Detector& observer,
                                  const Library& library, const Device& device, double brightest);
 

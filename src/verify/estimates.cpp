@@ -39,6 +39,16 @@ double normalQuantile(double p) {
 struct Moments {
     double mean, error;  ///< of the mean
 };
+/// How many equal values would make the same mean and spread about zero, (Σ v)² ÷ Σ v²: 1 where one value is
+/// all there is.
+double carriers(const std::vector<double>& values) {
+    double sum = 0, squares = 0;
+    for (double v : values) {
+        sum += v;
+        squares += v * v;
+    }
+    return squares > 0 ? sum * sum / squares : 0;
+}
 Moments momentsOf(const std::vector<double>& values, double finite) {
     const auto n = static_cast<double>(values.size());
     const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
@@ -110,6 +120,8 @@ Estimates estimate(std::vector<double> values, size_t population, double confide
     out.p95 = quantileOf(values, 0.95, confidence);
     out.p99 = quantileOf(values, 0.99, confidence);
     out.shareBeyond = 1 - std::pow(1 - confidence, 1 / n);
+    // A mean that a few pixels make has no upper end that this sample knows: there may be more of them.
+    if (carriers(values) < fewestCarriers) return out;
     values.insert(values.end(), static_cast<size_t>(std::ceil(0.5 * reach * reach)), out.largest);
     const Moments wary = momentsOf(values, finite);
     out.mean.high = wary.mean + reach * wary.error;

@@ -23,11 +23,16 @@ struct Estimates {
     double shareBeyond = 0;
 };
 
+/// Values that a mean must rest on, (Σ v)² ÷ Σ v², for an upper end.
+inline constexpr double fewestCarriers = 10;
+
 /// `values`: of pixels drawn at random without repetition from `population` pixels.
 ///
 /// Mean: normal approximation with the correction for a finite population; its upper end has z²/2
 /// more pixels like the largest found (as Agresti & Coull 1998 have it for shares), since rare large values
-/// that no sample has seen make the plain interval too short. Quantiles: order statistics (binomial), exact
+/// that no sample has seen make the plain interval too short; none where fewer than fewestCarriers values
+/// make the mean. It holds as long as no pixels that were not drawn are far beyond the largest found, of
+/// which there may be a share of `shareBeyond`. Quantiles: order statistics (binomial), exact
 /// whatever the distribution. `shareBeyond`: 1 − (1 − confidence)^(1/n). A sample of all pixels leaves no
 /// doubt.
 [[nodiscard]] Estimates estimate(std::vector<double> values, size_t population, double confidence);

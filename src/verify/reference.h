@@ -41,9 +41,6 @@ class Reference {
                                                  const Progress& progress = {}) const;
     /// What it takes from the renderer instead of computing it itself, one line each: passes.
     [[nodiscard]] const std::vector<std::string>& taken() const { return taken_; }
-    /// The name of the scene's first light and its X Y Z at Y = 1 for the observer; "E" without light.
-    [[nodiscard]] const std::string& whiteName() const { return wide_.whiteName; }
-    [[nodiscard]] const Triple& white() const { return wide_.white; }
 
   private:
     /// What the triangles `seen` by its samples add up to; `g` is scratch.

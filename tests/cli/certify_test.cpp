@@ -125,6 +125,7 @@ TEST_CASE("--tolerance chooses settings, says why, and certifies them; what noth
     CHECK(t.at("asked") == "0.5");
     CHECK(t.at("met") == true);
     CHECK(t.at("reached") <= 0.5);
+    CHECK(t.at("verdict") != "refuted");
     CHECK(t.at("white").at("name") == "illuminants/FL11");
     CHECK(t.at("choices").size() >= 3);
     for (const json& choice : t.at("choices"))
@@ -165,4 +166,59 @@ TEST_CASE(
     // bend, and its own picture rounds it again; the reference's pass has bands of a nanometre.
     CHECK(outcome.json().at("certificate").at("band_relative").at("p99").at("value").get<double>() < 2e-2);
     CHECK(run(folder, {"certify", "s.exr", "s.xml", "-q"}).code == 0);
+}
+
+TEST_CASE("a lamp without any blue is not what colours are judged by: the next one is, or E") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    const std::string
+        laser = R"(<light type="point" position="-2 1 3" spectrum="line:660" intensity="5 cd"/>)",
+        rest =
+            R"(<scene version="1"><material name="m"><diffuse reflectance="charts/colorchecker/cyan"/></material>
+<sphere radius="0.9" material="m"/><camera look-from="0 0 6" look-at="0 0 0" fov="38" size="48x40"/>)",
+        sun = R"(<light type="point" position="2 1 3" spectrum="illuminants/D65" intensity="50 cd"/>)";
+    folder.write("two.xml", rest + laser + sun + "</scene>");
+    folder.write("one.xml", rest + laser + "</scene>");
+    // Bands that miss nearly all that daylight shows.
+    REQUIRE(run(folder, {"render", "two.xml", "--wavelengths", "640,660,680", "-o", "red.exr", "-q"}).code ==
+            0);
+    const json red = run(folder, {"certify", "red.exr", "two.xml", "--json"}).json();
+    CHECK(red.at("white").at("name") == "illuminants/D65");
+    CHECK(red.at("deltae00").at("p99").at("value") > 5);
+    const auto chosen = run(folder, {"render", "two.xml", "--tolerance", "1", "-o", "a.exr", "--json"});
+    INFO(chosen.err);
+    REQUIRE(chosen.code == 0);
+    REQUIRE(run(folder, {"render", "two.xml", "--wavelengths", "360:830:1", "--samples", "64", "-o",
+                         "fine.exr", "-q"})
+                .code == 0);
+    CHECK(run(folder,
+              {"compare", "fine.exr", "a.exr", "--colours", "--white", "illuminants/D65", "--tolerance", "1"})
+              .code == 0);
+
+    REQUIRE(run(folder, {"render", "one.xml", "-o", "one.exr", "-q"}).code == 0);
+    CHECK(run(folder, {"certify", "one.exr", "one.xml", "--json"}).json().at("white").at("name") == "E");
+    const auto same = run(folder, {"compare", "one.exr", "one.exr", "--json"});
+    CHECK(same.code == 0);
+    CHECK(same.json().at("band_rmse") == 0);
+    CHECK(same.json().at("deltae00").at("p99").is_null());
+    CHECK(same.err.find("has no Z") != std::string::npos);
+}
+
+TEST_CASE("samples with which a pass cannot be rendered are passed over, not an error") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    folder.write("s.xml", R"(<scene version="1"><wavelengths from="400" to="700" step="50"/>
+<material name="a"><diffuse reflectance="400:0.2 700:0.7"/></material><material name="picture"><diffuse texture="pass:p"/></material>
+<node name="src"><sphere radius="0.5" material="a"/><light type="directional" direction="0 -0.3 -1" spectrum="constant:1" scale="1"/>
+<node translate="0 0 -1"><plane size="8" material="a"/></node><camera name="pc" fov="40" look-from="0.4 0.3 3" look-at="0.4 0 0" size="48x48"/></node>
+<node name="wall" translate="0 50 0"><plane size="2" material="picture"/><light type="directional" direction="-1 -0.3 -1" spectrum="illuminants/D65" illuminance="100 lx"/><camera name="gc" fov="40" look-from="0.5 0.5 3" look-at="0 0 0" size="48x40"/></node>
+<pass name="p" camera="pc" of="src" as="reflectance"/><pass name="main" camera="gc" of="wall"/></scene>)");
+    REQUIRE(run(folder, {"render", "s.xml", "--samples", "1", "-o", "a.exr", "-q"}).code == 1);
+    for (const char* tolerance : {"90", "90%rad"}) {
+        const auto outcome =
+            run(folder, {"render", "s.xml", "--tolerance", tolerance, "-o", "a.exr", "--json"});
+        INFO(outcome.err);
+        CHECK(outcome.code == 0);
+        CHECK(outcome.json().at("samples") > 1);
+    }
 }
