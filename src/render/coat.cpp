@@ -1,5 +1,6 @@
 #include "render/coat.h"
 
+#include "colour/detector.h"
 #include "render/fresnel.h"
 
 #include <algorithm>
@@ -17,8 +18,9 @@ double Nodes::weight(size_t i, double value) const {
 
 namespace {
 
-/// Wavelengths that show all values the curve takes within from…to; formulae may bend between their breaks.
-std::vector<double> placesOn(const Curve& curve, double from, double to) {
+/// Wavelengths that show all values the curve takes; formulae may bend between their breaks.
+std::vector<double> placesOn(const Curve& curve, WavelengthSpan span) {
+    const auto [from, to] = span;
     std::vector<double> places{from, to};
     curve.appendBreaks(from, to, places);
     constexpr int steps = 64;
@@ -29,9 +31,26 @@ std::vector<double> placesOn(const Curve& curve, double from, double to) {
 
 }  // namespace
 
-Nodes nodesFor(const Curve& curve, double from, double to) {
-    double low = curve.at(from), high = low;
-    for (double place : placesOn(curve, from, to)) {
+WavelengthSpan seenByBands(const Wavelengths& grid) {
+    return {band(grid, 0).from, band(grid, grid.size() - 1).to};
+}
+
+WavelengthSpan seenByAnyone(const Wavelengths& grid, const Detector* observer) {
+    WavelengthSpan span = seenByBands(grid);
+    const auto include = [&](double from, double to) {
+        span.from = std::min(span.from, from);
+        span.to = std::max(span.to, to);
+    };
+    include(360, 830);
+    if (observer)
+        for (const Curve& response : observer->response)
+            if (const auto range = response.range()) include(range->first, range->second);
+    return span;
+}
+
+Nodes nodesFor(const Curve& curve, WavelengthSpan span) {
+    double low = curve.at(span.from), high = low;
+    for (double place : placesOn(curve, span)) {
         low = std::min(low, curve.at(place));
         high = std::max(high, curve.at(place));
     }
@@ -46,9 +65,15 @@ Nodes nodesFor(const Curve& curve, double from, double to) {
     return nodes;
 }
 
-double interpolationError(const Nodes& nodes, const Curve& ior, double from, double to) {
+Nodes nodesOfGlass(const Curve& ior, WavelengthSpan bands, WavelengthSpan anyone) {
+    const Nodes all = nodesFor(ior, anyone), own = nodesFor(ior, bands);
+    const double tolerated = std::max(1e-4, 2 * interpolationError(own, ior, bands));
+    return interpolationError(all, ior, bands) <= tolerated ? all : own;
+}
+
+double interpolationError(const Nodes& nodes, const Curve& ior, WavelengthSpan span) {
     double worst = 0;
-    for (double place : placesOn(ior, from, to)) {
+    for (double place : placesOn(ior, span)) {
         const double n = ior.at(place);
         for (int i = 0; i <= 90; ++i) {
             const double c = std::cos(i * std::numbers::pi / 180), exact = fresnelDielectric(c, n);

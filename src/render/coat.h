@@ -4,10 +4,23 @@
 
 #include "render/facets.h"
 #include "spectrum/curve.h"
+#include "spectrum/wavelengths.h"
 
 #include <vector>
 
 namespace spectrad {
+
+struct Detector;
+
+/// Wavelengths from…to, nm.
+struct WavelengthSpan {
+    double from, to;
+};
+/// All that any band sees: a single one has a hat that reaches to both sides.
+[[nodiscard]] WavelengthSpan seenByBands(const Wavelengths& grid);
+/// Those, all that the CIE's observers see (360…830 nm) and all that this one does, if any: previews, terms
+/// under another lamp and exact channels have no bands, and integrate over their own wavelengths.
+[[nodiscard]] WavelengthSpan seenByAnyone(const Wavelengths& grid, const Detector* observer = nullptr);
 
 /// A coat whose optics depend on the wavelength through one number only (its index, or its reflectance at
 /// normal incidence) is evaluated at a few values of that number; at any other it is the polynomial through
@@ -16,11 +29,14 @@ struct Nodes {
     std::vector<double> at;
     [[nodiscard]] double weight(size_t i, double value) const;
 };
-/// For the values that the curve takes within from…to, nm.
-[[nodiscard]] Nodes nodesFor(const Curve& curve, double from, double to);
+/// For the values that the curve takes within the span.
+[[nodiscard]] Nodes nodesFor(const Curve& curve, WavelengthSpan span);
+/// Of a glass for all wavelengths that somebody sees; but for those of the bands alone where more would make
+/// these wrong by more than 1e-4 of a reflectance (a formula with a pole in the visible, for the infrared).
+[[nodiscard]] Nodes nodesOfGlass(const Curve& ior, WavelengthSpan bands, WavelengthSpan anyone);
 /// Largest error of the polynomial through the nodes of a glass's reflectance, as a share of that
-/// reflectance, over all angles and the curve's values within from…to.
-[[nodiscard]] double interpolationError(const Nodes& nodes, const Curve& ior, double from, double to);
+/// reflectance, over all angles and the curve's values within the span.
+[[nodiscard]] double interpolationError(const Nodes& nodes, const Curve& ior, WavelengthSpan span);
 
 /// A coat at one value of its number: what it reflects and what it lets through.
 struct Coat {

@@ -116,7 +116,7 @@ void TermBuilder::addFacets(const std::vector<AngleFunction>& fresnel, const std
 
 void TermBuilder::addGloss(const Material& material) {
     const Curve& ior = material.gloss->ior.curve();
-    const Nodes nodes = nodesFor(ior, grid_.nm.front(), grid_.nm.back());
+    const Nodes nodes = nodesOfGlass(ior, seenByBands(grid_), anyone_);
     const Widths widths = widthsOf(material.gloss->roughness);
     for (size_t i = 0; i < nodes.at.size(); ++i) {
         const double n = nodes.at[i];
@@ -151,7 +151,7 @@ void TermBuilder::addGloss(const Material& material) {
 
 void TermBuilder::addSpecular(const Material& material) {
     const Curve& r0 = material.specular->reflectance.curve();
-    const Nodes nodes = nodesFor(r0, grid_.nm.front(), grid_.nm.back());
+    const Nodes nodes = nodesFor(r0, anyone_);
     const Widths widths = widthsOf(material.specular->roughness);
     for (size_t i = 0; i < nodes.at.size(); ++i) {
         const double r = nodes.at[i];
@@ -171,8 +171,7 @@ void TermBuilder::addConductor(const Material& material) {
     const Conductor& metal = *material.conductor;
     const Curve &n = metal.ior.curves.at(0), &k = metal.ior.curves.at(1);
     const Widths widths = widthsOf(metal.roughness);
-    // All wavelengths that any band sees: a single one has a hat that reaches to both sides.
-    const double from = band(grid_, 0).from, to = std::max(band(grid_, grid_.size() - 1).to, from + 1);
+    const auto [from, to] = anyone_;
     if (only_ == Only::fluorescence) return;
     const FresnelBasis basis = metal.schlick ? schlickBasis(n, k) : conductorBasis(n, k, from, to);
     if (metal.schlick)

@@ -66,7 +66,8 @@ PeakRadianceFactor peakUnder(const NamedLight& light, const FluorescentBase& bas
 
 std::optional<FresnelFigures> fresnelOf(const Material& m, const Wavelengths& grid) {
     using Model = FresnelFigures::Model;
-    const double from = band(grid, 0).from, to = std::max(band(grid, grid.size() - 1).to, from + 1);
+    const WavelengthSpan bands = seenByBands(grid), anyone = seenByAnyone(grid);
+    const auto [from, to] = anyone;
     if (m.conductor) {
         const Curve &n = m.conductor->ior.curves.at(0), &k = m.conductor->ior.curves.at(1);
         if (m.conductor->schlick) return FresnelFigures{Model::schlick, 2, schlickError(n, k, from, to)};
@@ -74,10 +75,9 @@ std::optional<FresnelFigures> fresnelOf(const Material& m, const Wavelengths& gr
         return FresnelFigures{Model::exact, basis.angle.size(), basis.relativeError};
     }
     if (m.gloss) {
-        const Nodes nodes = nodesFor(m.gloss->ior.curve(), grid.nm.front(), grid.nm.back());
-        return FresnelFigures{
-            Model::exact, nodes.at.size(),
-            interpolationError(nodes, m.gloss->ior.curve(), grid.nm.front(), grid.nm.back())};
+        const Curve& ior = m.gloss->ior.curve();
+        const Nodes nodes = nodesOfGlass(ior, bands, anyone);
+        return FresnelFigures{Model::exact, nodes.at.size(), interpolationError(nodes, ior, bands)};
     }
     return std::nullopt;
 }

@@ -23,7 +23,7 @@ namespace {
 constexpr double tolerance = 3e-5;
 
 /// The places between a texture's wavelengths that its texels are known at.
-struct Nodes {
+struct Places {
     std::vector<double> nm;  ///< the texture's
     int steps = 1;           ///< of each interval
     [[nodiscard]] size_t count() const { return nodeCount(nm, steps); }
@@ -75,7 +75,7 @@ Curve curveOf(const Cumulative& taken) {
 
 /// What is absorbed at a node below all of another's is known when that one sends out; only where the two
 /// overlap does it grow along with the emission, and needs a band of its own.
-Glow glowOf(const FluorescentBase::Separable& part, const Curve& light, const Nodes& nodes, double inside) {
+Glow glowOf(const FluorescentBase::Separable& part, const Curve& light, const Places& nodes, double inside) {
     Glow glow;
     const double factor = part.factor * (1 - inside);
     // What is absorbed and what is sent out beside less than a billionth of all of it counts for nothing.
@@ -125,7 +125,7 @@ Glow glowOf(const FluorescentBase::Separable& part, const Curve& light, const No
 }
 
 /// A band for each row of the matrix and each node within its hat.
-Glow glowOf(const FluorescentBase::Bispectral& part, const Curve& light, const Nodes& nodes, double inside) {
+Glow glowOf(const FluorescentBase::Bispectral& part, const Curve& light, const Places& nodes, double inside) {
     Glow glow;
     glow.absorbs = false;
     const size_t count = nodes.count(), columns = part.bandCentre.size();
@@ -164,7 +164,7 @@ Glow glowOf(const FluorescentBase::Bispectral& part, const Curve& light, const N
 }
 
 /// The image of a glow over a texture whose texels lie at `texels`.
-Texels imageOf(const Glow& glow, const Nodes& nodes, const float* texels, const sd_texture& texture,
+Texels imageOf(const Glow& glow, const Places& nodes, const float* texels, const sd_texture& texture,
                double inside) {
     Texels image{texture.width, texture.height, static_cast<int>(glow.bands.size()), {}};
     const auto bands = static_cast<size_t>(texture.bands), steps = static_cast<size_t>(nodes.steps);
@@ -195,7 +195,7 @@ void TermBuilder::addTexturedGlow(const Material& material, const Base& base, co
     const FluorescentBase parts(black, base.inside, notes_);
     const sd_texture texture = world_.textures[image.number - 1];
     const std::vector<float> reflectances = finestLevel(world_, image.number);
-    const Nodes nodes{image.nm, stepsFor(world_, image.number, base.inside, 0, tolerance)};
+    const Places nodes{image.nm, stepsFor(world_, image.number, base.inside, 0, tolerance)};
     const auto add = [&](const LightGroup& group, const Glow& glow, size_t number) {
         if (glow.bands.empty()) return;
         const auto& mask = material.fluorescence[number].mask;

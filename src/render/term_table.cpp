@@ -17,6 +17,7 @@ TermBuilder::TermBuilder(const Wavelengths& grid, const Eye& eye, std::vector<Li
                          TextureLoader& textures, World& world, TermTable& terms, Notes& notes,
                          const Detector* exact)
     : grid_(grid),
+      anyone_(seenByAnyone(grid, &eye.detector)),
       eye_(eye),
       groups_(std::move(groups)),
       only_(only),
@@ -25,6 +26,10 @@ TermBuilder::TermBuilder(const Wavelengths& grid, const Eye& eye, std::vector<Li
       terms_(terms),
       notes_(notes),
       exact_(exact) {
+    if (exact_) {
+        const WavelengthSpan measured = seenByAnyone(grid, exact_);
+        anyone_ = {std::min(anyone_.from, measured.from), std::max(anyone_.to, measured.to)};
+    }
     terms_.bands = grid.size();
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/anisotropy.h"
+#include "render/coat.h"
 #include "render/light_groups.h"
 #include "render/settings.h"
 #include "render/texture.h"
@@ -132,6 +133,7 @@ class TermBuilder {
                        const std::vector<Curve>& spectra);
 
     const Wavelengths& grid_;
+    WavelengthSpan anyone_;  ///< wavelengths that terms are right at
     const Eye& eye_;
     std::vector<LightGroup> groups_;
     Only only_;

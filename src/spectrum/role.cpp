@@ -129,7 +129,7 @@ void checkValues(const Spectrum& spectrum, Role role, const SourceLocation& wher
 }
 
 void checkLines(const Spectrum& spectrum, Role role, const SourceLocation& where) {
-    if (role == Role::light || role == Role::emission || role == Role::detector || role == Role::any) return;
+    if (role == Role::light || role == Role::detector || role == Role::any) return;
     for (const Curve& curve : spectrum.curves)
         if (!curve.lines().empty())
             throw InputError(

@@ -285,6 +285,10 @@ TEST_CASE(
                       head +
                           "'line:500' is a line of no width and cannot be a reflectance; give it a width, as "
                           "in line:500,0.01");
+    // Not a fluorophore's either way: no band of what it sends out would hold the line's light.
+    for (const Role role : {Role::excitation, Role::emission})
+        CHECK_THROWS_WITH(f.get("line:500", role),
+                          Catch::Contains("'line:500' is a line of no width and cannot be an "));
     f.write("three.csv", "400,1,2,3\n");
     CHECK_THROWS_WITH(
         f.get("three.csv", Role::index),
