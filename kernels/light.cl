@@ -65,7 +65,7 @@ static void shade_light(sd_lobe lobe, global const sd_piece* tables, sd_light li
 #endif
 #ifdef HAS_COATED
         case SD_LOBE_COATED: {
-            const vfloat through = at_view.first * first_at(lobe, tables, s, to_light, cos_light);
+            const vfloat through = at_view.first * first_at(lobe, tables + lobe.table_light, s, to_light, cos_light);
             add_painted(lobe, p, s, irradiance * through, lit, groups, term);
             break;
         }

@@ -51,13 +51,13 @@ typedef struct lobe_view {
 } lobe_view;
 
 #if defined(HAS_ROUGH) || defined(HAS_COATED) || defined(HAS_FACETS)
-/* The lobe's first function at a light. */
-static vfloat first_at(sd_lobe lobe, global const sd_piece* tables, surface s, v3 to_light, vfloat cos_light) {
+/* The lobe's first function at a light, or another that lies at `table`. */
+static vfloat first_at(sd_lobe lobe, global const sd_piece* table, surface s, v3 to_light, vfloat cos_light) {
 #ifdef HAS_ANISOTROPY
     if (lobe.alpha_v != 0.0f)
-        return fmax(look_up_round(tables + lobe.table, cell_of(cos_light), azimuth_of(lobe, local_of(s, to_light))), 0.0f);
+        return fmax(look_up_round(table, cell_of(cos_light), azimuth_of(lobe, local_of(s, to_light))), 0.0f);
 #endif
-    return look_up(tables + lobe.table, cell_of(cos_light));
+    return look_up(table, cell_of(cos_light));
 }
 #endif
 
@@ -169,7 +169,7 @@ static void rough_coated(sd_lobe lobe, global const sd_piece* tables, surface s,
     const below view = below_coat(lobe, tables, s.cos_view), light = below_coat(lobe, tables, cos_light);
     const vfloat beyond = fma(-cos_light, s.cos_view, dot3(to_light, s.view)) * lobe.inv_n2;
     const vfloat divisor = select((vfloat)1.0f, fmax(light.cosine, view.cosine), beyond > 0.0f);
-    const vfloat through = irradiance * (at_view.first * first_at(lobe, tables, s, to_light, cos_light)) * lobe.inv_n2;
+    const vfloat through = irradiance * (at_view.first * first_at(lobe, tables + lobe.table, s, to_light, cos_light)) * lobe.inv_n2;
     const vfloat single = lobe.mean_through * fma((vfloat)lobe.ratio, beyond / divisor, (vfloat)1.0f);
     term = add_rough(lobe, p, s, through * single, through * (view.missing * light.missing * lobe.multiple), lit, groups, term);
     add_part(lobe, p, s, through * (view.back * light.back * lobe.rest), lit, groups, lobe.steps, lobe.inside_rest, lobe.second_rest, term);
@@ -205,7 +205,7 @@ static void facets(sd_lobe lobe, global const sd_piece* tables, surface s, v3 to
     }
     /* Not width squared: of a surface of roughness 1e-8 that is 1e-64. */
     const vfloat shape = (a2 / width) * (INV_PI / width) * 0.5f / (shadow_view + shadow_light) * irradiance;
-    const vfloat multiple = at_view.first * first_at(lobe, tables, s, to_light, cos_light) * lobe.multiple * irradiance;
+    const vfloat multiple = at_view.first * first_at(lobe, tables + lobe.table, s, to_light, cos_light) * lobe.multiple * irradiance;
     const table_cell facing = cell_of(cos_diff);
     global const sd_piece* fresnel = tables + lobe.table + (1 + lobe.functions) * COEFFICIENTS(lobe) * SD_CELLS;
     for (uint f = 0; f < lobe.functions; ++f) {

@@ -115,7 +115,7 @@ typedef struct sd_piece {
 #define SD_AZIMUTHS 8
 
 /* Tables of a lobe, each SD_CELLS pieces from `table` on.
- *   COATED: what the coat lets through.
+ *   COATED: what the coat lets through, out at `table` and in at `table_light`.
  *   ROUGH:  1 - directional albedo of single scattering.
  *   ROUGH_COATED: what the coat lets through; then, of the direction below the coat that belongs to the one above, 1 - directional
  *           albedo of single scattering; and the share of what a white base scatters that the coat sends back to it.
@@ -126,11 +126,12 @@ typedef struct sd_lobe {
     sd_int type;
     sd_uint term;        /* of the lobe's first term within its material; terms run [function][light group] */
     sd_uint table;       /* first piece */
+    sd_uint table_light; /* COATED: the same of what is let in; another than `table` where light changes its wavelength below the coat */
     sd_uint functions;   /* FACETS: how many */
     sd_uint multiple_to; /* FACETS: the function whose terms take multiple scattering; == functions: terms of their own */
     float multiple;      /* factor of missing(view) missing(light), 1/sr; ROUGH, ROUGH_COATED: 1 / (1 - mean albedo) */
     float alpha;         /* FACETS: GGX width, roughness squared, 0 a mirror; ROUGH: B / A of Oren and Nayar */
-    float mean_through;  /* COATED: cosine-weighted mean of what is let through; ROUGH, ROUGH_COATED: A */
+    float mean_through;  /* COATED: cosine-weighted mean of what is let in; ROUGH, ROUGH_COATED: A */
     sd_uint texture;     /* DIFFUSE, COATED, ROUGH: 1 + number of the texture that paints the lobe; 0: none */
     sd_uint strength;    /* the same: 1 + number of the texture whose one band multiplies g; 0: none */
     sd_int steps;        /* of a painted lobe: terms for each interval between bands, see texture.h */
@@ -181,7 +182,7 @@ typedef struct sd_show {
 
 #ifndef __OPENCL_VERSION__
 static_assert(sizeof(sd_frame) == 96 && sizeof(sd_draw) == 144 && sizeof(sd_vertex) == 16 && sizeof(sd_large) == 64 + 0 &&
-                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 80 && sizeof(sd_texture) == 56 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 24 &&
+                  sizeof(sd_light) == 48 && sizeof(sd_lobe) == 84 && sizeof(sd_texture) == 56 && sizeof(sd_piece) == 16 && sizeof(sd_material) == 24 &&
                   sizeof(sd_show) == 36,
               "layout shared with the kernels");
 #endif

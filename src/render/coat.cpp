@@ -4,13 +4,16 @@
 #include "render/fresnel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace spectrad {
 
 double Nodes::weight(size_t i, double value) const {
     double w = 1;
+    value = std::clamp(value, least, most);
     for (size_t k = 0; k < at.size(); ++k)
         if (k != i) w *= (value - at[k]) / (at[i] - at[k]);
     return w;
@@ -48,21 +51,39 @@ WavelengthSpan seenByAnyone(const Wavelengths& grid, const Detector* observer) {
     return span;
 }
 
-Nodes nodesFor(const Curve& curve, WavelengthSpan span) {
+namespace {
+
+/// Least and largest value.
+std::pair<double, double> valuesOf(const Curve& curve, WavelengthSpan span) {
     double low = curve.at(span.from), high = low;
     for (double place : placesOn(curve, span)) {
         low = std::min(low, curve.at(place));
         high = std::max(high, curve.at(place));
     }
-    if (high - low <= 1e-9 * std::max(std::abs(high), 1e-30)) return {{0.5 * (low + high)}};
-    // Chebyshev nodes: four leave less than 1e-6 of the reflectance of any glass. Measured reflectances from
-    // dark to bright need more: light that bounces between rough facets is a geometric series in them.
-    const int count = high - low <= 0.1 ? 4 : high - low <= 0.4 ? 6 : 9;
-    Nodes nodes;
+    return {low, high};
+}
+
+bool areOne(double low, double high) {
+    return high - low <= 1e-9 * std::max(std::abs(high), 1e-30);
+}
+
+Nodes chebyshev(double low, double high, int count) {
+    Nodes nodes{{}, low, high};
     for (int i = 0; i < count; ++i)
         nodes.at.push_back(0.5 * (low + high) +
                            0.5 * (high - low) * std::cos(std::numbers::pi * (i + 0.5) / count));
     return nodes;
+}
+
+}  // namespace
+
+Nodes nodesFor(const Curve& curve, WavelengthSpan span) {
+    const auto [low, high] = valuesOf(curve, span);
+    if (areOne(low, high)) return {{0.5 * (low + high)}, low, high};
+    // Chebyshev nodes: four leave less than 1e-6 of the reflectance of any glass. Measured reflectances from
+    // dark to bright need more: light that bounces between rough facets is a geometric series in them.
+    const int count = high - low <= 0.1 ? 4 : high - low <= 0.4 ? 6 : 9;
+    return chebyshev(low, high, count);
 }
 
 Nodes nodesOfGlass(const Curve& ior, WavelengthSpan bands, WavelengthSpan anyone) {
@@ -85,6 +106,8 @@ double interpolationError(const Nodes& nodes, const Curve& ior, WavelengthSpan s
     }
     return worst;
 }
+
+namespace {
 
 Coat coatOf(const AngleFunction& fresnel, Widths widths) {
     Coat coat;
@@ -111,6 +134,69 @@ Coat coatOf(const AngleFunction& fresnel, Widths widths) {
     }
     coat.meanThrough = cosineMean(roundMean(coat.through, widths));
     return coat;
+}
+
+}  // namespace
+
+AngleFunction fresnelOf(CoatModel model, double value) {
+    if (model == CoatModel::glass) return [value](double c) { return fresnelDielectric(c, value); };
+    return [value](double c) { return fresnelSchlick(c, value); };
+}
+
+Coat coatOf(CoatModel model, double value, Widths widths) {
+    Coat coat = coatOf(fresnelOf(model, value), widths);
+    if (model == CoatModel::glass) {
+        coat.index = value;
+        // What a diffuse base sends up is let through as what comes down, per solid angle inside (n² of it):
+        // 1 − r_inside = (1 − r_outside) / n², from the reciprocity of transmission.
+        coat.inside = std::max(0.0, 1 - coat.meanThrough / (value * value));
+    }
+    return coat;
+}
+
+Nodes nodesForWay(Way way, CoatModel model, const Curve& number, WavelengthSpan span, Widths widths) {
+    const auto [low, high] = valuesOf(number, span);
+    const double middle = 0.5 * (low + high);
+    if (areOne(low, high)) return {{middle}, low, high};
+    const double white = facetAlbedos({fresnelOf(model, middle)}, widths).whiteMean;
+    constexpr std::array<double, 7> cosines{1, 0.8, 0.6, 0.45, 0.3, 0.2, 0.1};
+    using Row = std::array<double, cosines.size()>;
+    // As coatOf(), but for how a rough coat's single scattering depends on the angle, which is linear in F.
+    const auto passed = [&](double value) {
+        const AngleFunction f = fresnelOf(model, value);
+        const double mean = cosineMean(f), again = (1 - white) * multipleScattering(mean, white);
+        const double all = std::max(1 - mean * white - again, 1e-12);
+        const double inside = model == CoatModel::glass ? std::max(0.0, 1 - all / (value * value)) : 0;
+        // Between coat and a bright base light goes to and fro.
+        const double factor = (way == Way::in ? 1 : (1 - inside) / all) / (1 - 0.9 * inside);
+        Row row;
+        for (size_t i = 0; i < row.size(); ++i)
+            row[i] = factor * (1 - f(cosines[i]) * white - again);
+        return row;
+    };
+    constexpr int places = 24, mostNodes = 9;
+    constexpr double tolerance = 2e-5;  // of what is passed at normal incidence
+    std::vector<Row> wanted;
+    for (int i = 0; i <= places; ++i)
+        wanted.push_back(passed(low + (high - low) * i / places));
+    const auto suffice = [&](const Nodes& nodes) {
+        std::vector<Row> known;
+        for (double value : nodes.at)
+            known.push_back(passed(value));
+        for (size_t p = 0; p < wanted.size(); ++p)
+            for (size_t c = 0; c < cosines.size(); ++c) {
+                double sum = 0;
+                for (size_t k = 0; k < known.size(); ++k)
+                    sum +=
+                        nodes.weight(k, low + (high - low) * static_cast<double>(p) / places) * known[k][c];
+                if (!(std::abs(sum - wanted[p][c]) <= tolerance * wanted[p][0])) return false;
+            }
+        return true;
+    };
+    int count = 1;
+    while (count < mostNodes && !suffice(chebyshev(low, high, count)))
+        ++count;
+    return chebyshev(low, high, count);
 }
 
 }  // namespace spectrad

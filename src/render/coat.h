@@ -27,6 +27,7 @@ struct WavelengthSpan {
 /// them.
 struct Nodes {
     std::vector<double> at;
+    double least, most;  ///< values beyond these count as they do: a polynomial goes anywhere there
     [[nodiscard]] double weight(size_t i, double value) const;
 };
 /// For the values that the curve takes within the span.
@@ -41,11 +42,25 @@ struct Nodes {
 /// A coat at one value of its number: what it reflects and what it lets through.
 struct Coat {
     FacetAlbedos facets;
-    double again = 0;     ///< reflectance of light that bounces between facets
-    double multiple = 0;  ///< factor of missing · missing, 1/sr
-    DirectionFunction albedo, through;
+    double again = 0;                   ///< reflectance of light that bounces between facets
+    double multiple = 0;                ///< factor of missing · missing, 1/sr
+    DirectionFunction albedo, through;  ///< nothing: no coat
     double meanThrough = 1;
+    double inside = 0, index = 1;  ///< reflectance for diffuse light from below; these: not known
 };
-[[nodiscard]] Coat coatOf(const AngleFunction& fresnel, Widths widths);
+/// How a coat's reflectance follows from its number.
+enum class CoatModel {
+    glass,    ///< Fresnel's, by its index
+    measured  ///< Schlick's, by its reflectance at normal incidence
+};
+[[nodiscard]] AngleFunction fresnelOf(CoatModel model, double value);
+[[nodiscard]] Coat coatOf(CoatModel model, double value, Widths widths);
+
+/// Light that changes its wavelength below a coat passes it by other values of the coat's number on its way
+/// in than on its way out.
+enum class Way { in, out };
+/// As few nodes as bring the polynomial through what the coat passes on that way within 2e-5 (nine at most).
+[[nodiscard]] Nodes nodesForWay(Way way, CoatModel model, const Curve& number, WavelengthSpan span,
+                                Widths widths);
 
 }  // namespace spectrad

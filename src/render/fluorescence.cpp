@@ -14,8 +14,10 @@
 
 namespace spectrad {
 
-FluorescentBase::FluorescentBase(const Material& material, double inside, Notes& notes)
-    : base_(Curve::constant(0)), inside_(inside) {
+FluorescentBase::FluorescentBase(const Material& material, double inside, Notes& notes,
+                                 const std::optional<Entry>& entry)
+    : base_(Curve::constant(0)), inside_(inside), insideIn_(entry ? entry->inside : inside) {
+    if (entry && entry->weight) weightIn_ = *entry->weight;
     if (material.diffuse && material.diffuse->reflectance) {
         base_ = material.diffuse->reflectance->curve();
         black_ = base_.isConstant() && base_.at(550) == 0;
@@ -32,7 +34,6 @@ FluorescentBase::FluorescentBase(const Material& material, double inside, Notes&
         separable_.back().number = i;
     }
     checkAbsorption(material, notes);
-    if (!separable_.empty() || !bispectral_.empty()) black_ = false;
 }
 
 void FluorescentBase::addSeparable(const Fluorescence& part) {
@@ -181,13 +182,16 @@ std::vector<Curve> FluorescentBase::reradiation(const Curve& light, std::span<co
 // so far. Under a coat light of λi comes back to the base, and so does what it sends out.
 Curve FluorescentBase::glow(const Separable& part, const Curve& light) const {
     const double r = inside_;
-    const Curve absorbed = Curve::combined({part.excitation, base_}, [r](std::span<const double> v) {
-        return v[0] * std::max(0.0, 1 - v[1]) / (1 - v[1] * r);
-    });
+    const Curve absorbed =
+        Curve::combined({part.excitation, base_}, [in = insideIn_](std::span<const double> v) {
+            return v[0] * std::max(0.0, 1 - v[1]) / (1 - v[1] * in);
+        });
     const Curve photons =
         Curve::formula([](double nm) { return nm; }, [](double, double, std::vector<double>&) {});
     const auto range = part.emission.range();
-    const Cumulative taken({absorbed, photons}, light, part.excitation.range());
+    std::vector<Curve> weights{absorbed, photons};
+    if (weightIn_) weights.push_back(*weightIn_);
+    const Cumulative taken(std::move(weights), light, part.excitation.range());
     const Curve& e = part.emission;
     const double factor = part.factor * (1 - r);
     const bool antiStokes = part.antiStokes;
@@ -209,10 +213,14 @@ Curve FluorescentBase::glow(const Separable& part, const Curve& light) const {
 
 Curve FluorescentBase::glow(const Bispectral& part, const Curve& light) const {
     std::vector<double> irradiance;
-    const Curve gain =
-        Curve::combined({base_}, [r = inside_](std::span<const double> v) { return 1 / (1 - v[0] * r); });
+    const auto gainOf = [&](double inside) {
+        return Curve::combined({base_},
+                               [inside](std::span<const double> v) { return 1 / (1 - v[0] * inside); });
+    };
+    const Curve gain = gainOf(inside_), gainIn = gainOf(insideIn_);
+    std::vector<const Curve*> product{&light, &gainIn};
+    if (weightIn_) product.push_back(&*weightIn_);
     for (size_t i = 0; i < part.bandCentre.size(); ++i) {
-        const std::array<const Curve*, 2> product{&light, &gain};
         irradiance.push_back(integrate(product, part.bandFrom[i], part.bandTo[i]) /
                              (part.bandTo[i] - part.bandFrom[i]));
     }

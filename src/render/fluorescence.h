@@ -38,14 +38,24 @@ struct FluorophoreFigures {
     }
 };
 
+/// How a coat lets exciting light in, where that is otherwise than what is emitted gets out.
+struct Entry {
+    double inside = 0;              ///< reflectance of diffuse light from below
+    const Curve* weight = nullptr;  ///< one more factor of the light
+};
+
 /// The diffuse part of a material with its fluorophores, seen through a coat that sends `inside` of diffuse
 /// light back down.
 class FluorescentBase {
   public:
     /// Throws InputError for parts that contradict each other; what was changed in a matrix goes to notes.
-    FluorescentBase(const Material& material, double inside, Notes& notes);
+    FluorescentBase(const Material& material, double inside, Notes& notes,
+                    const std::optional<Entry>& entry = std::nullopt);
 
-    [[nodiscard]] bool isBlack() const { return black_; }
+    [[nodiscard]] bool isBlack() const {
+        return reflectsNothing() && separable_.empty() && bispectral_.empty();
+    }
+    [[nodiscard]] bool reflectsNothing() const { return black_; }
     /// M(λo, λi) = factor · x(λi) (1 − ρ(λi)) · λi · e(λo)
     struct Separable {
         Curve excitation;  ///< peak 1
@@ -93,6 +103,8 @@ class FluorescentBase {
 
     Curve base_;
     double inside_;
+    double insideIn_;  ///< the same for exciting light
+    std::optional<Curve> weightIn_;
     bool black_ = true;
     std::vector<Separable> separable_;
     std::vector<Bispectral> bispectral_;

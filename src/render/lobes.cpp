@@ -53,22 +53,23 @@ std::vector<std::vector<sd_piece>> TermBuilder::tablesOf(const DirectionFunction
     return tables;
 }
 
-void TermBuilder::addCoatedBase(const Material& material, const Curve& weight,
-                                const DirectionFunction& through, double meanThrough, double inside,
-                                double index, Widths widths) {
+void TermBuilder::addCoatedBase(const Material& material, const Curve& weight, const Coat& coat,
+                                Widths widths, bool glows) {
     Base base;
-    base.type = through.empty() ? SD_LOBE_DIFFUSE : SD_LOBE_COATED;
-    if (&weight != &one()) base.weight = &weight;
+    base.type = coat.through.empty() ? SD_LOBE_DIFFUSE : SD_LOBE_COATED;
     base.widths = widths;
-    base.meanThrough = meanThrough;
-    base.inside = inside;
-    base.index = index;
+    base.index = coat.index;
+    base.glows = glows;
+    base.out.meanThrough = coat.meanThrough;
+    base.out.inside = coat.inside;
+    if (&weight != &one()) base.out.weight = &weight;
     if (material.diffuse && material.diffuse->roughnessDegrees > 0) {
-        addRough(material, base, through);
-        if (material.fluorescence.empty() || only_ == Only::reflection) return;
+        addRough(material, base, coat.through);
+        if (material.fluorescence.empty() || only_ == Only::reflection || !glows) return;
         base.reflects = false;
     }
-    if (!through.empty()) base.table = addTables(tablesOf(through));
+    if (!coat.through.empty()) base.out.table = addTables(tablesOf(coat.through));
+    base.in = base.out;
     addBase(material, base);
 }
 
@@ -118,27 +119,24 @@ void TermBuilder::addGloss(const Material& material) {
     const Curve& ior = material.gloss->ior.curve();
     const Nodes nodes = nodesOfGlass(ior, seenByBands(grid_), anyone_);
     const Widths widths = widthsOf(material.gloss->roughness);
-    for (size_t i = 0; i < nodes.at.size(); ++i) {
+    const bool apart = glowsApart(material, ior);
+    for (size_t i = 0; i < nodes.at.size() && !(apart && only_ == Only::fluorescence); ++i) {
         const double n = nodes.at[i];
         const Curve polynomial =
             Curve::combined({ior}, [nodes, i](std::span<const double> v) { return nodes.weight(i, v[0]); });
         const Curve& weight = nodes.at.size() == 1 ? one() : polynomial;
-        const Coat coat = coatOf([n](double c) { return fresnelDielectric(c, n); }, widths);
-        // What a diffuse base sends up is let through as what comes down, per solid angle inside (n² of it):
-        // 1 − r_inside = (1 − r_outside) / n², from the reciprocity of transmission.
-        const double inside = std::max(0.0, 1 - coat.meanThrough / (n * n));
-        addCoatedBase(material, weight, coat.through, coat.meanThrough, inside, n, widths);
+        const Coat coat = coatOf(CoatModel::glass, n, widths);
+        addCoatedBase(material, weight, coat, widths, !apart);
         if (only_ == Only::fluorescence) continue;
         if (material.gloss->reflects) {
-            addReflection(*material.gloss->reflects, {[n](double c) { return fresnelDielectric(c, n); }},
-                          {weight});
+            addReflection(*material.gloss->reflects, {fresnelOf(CoatModel::glass, n)}, {weight});
             continue;
         }
         sd_lobe lobe = beginLobe(SD_LOBE_FACETS);
         std::vector<std::vector<sd_piece>> tables;
         appendMissing(tables, coat.facets.white);
         append(tables, tablesOf(coat.albedo));
-        tables.push_back(tabulate([n](double c) { return fresnelDielectric(c, n); }));
+        tables.push_back(tabulate(fresnelOf(CoatModel::glass, n)));
         lobe.table = addTables(tables);
         lobe.functions = 1;
         lobe.multiple_to = 0;
@@ -147,20 +145,21 @@ void TermBuilder::addGloss(const Material& material) {
         addGroupTerms(weight);
         endLobe(lobe);
     }
+    if (apart) addCoatedGlow(material, CoatModel::glass, ior, widths);
 }
 
 void TermBuilder::addSpecular(const Material& material) {
     const Curve& r0 = material.specular->reflectance.curve();
     const Nodes nodes = nodesFor(r0, anyone_);
     const Widths widths = widthsOf(material.specular->roughness);
-    for (size_t i = 0; i < nodes.at.size(); ++i) {
-        const double r = nodes.at[i];
+    const bool apart = glowsApart(material, r0);
+    for (size_t i = 0; i < nodes.at.size() && !(apart && only_ == Only::fluorescence); ++i) {
         const Curve polynomial =
             Curve::combined({r0}, [nodes, i](std::span<const double> v) { return nodes.weight(i, v[0]); });
         const Curve& weight = nodes.at.size() == 1 ? one() : polynomial;
-        const Coat coat = coatOf([r](double c) { return fresnelSchlick(c, r); }, widths);
-        addCoatedBase(material, weight, coat.through, coat.meanThrough, 0, 1, widths);
+        addCoatedBase(material, weight, coatOf(CoatModel::measured, nodes.at[i], widths), widths, !apart);
     }
+    if (apart) addCoatedGlow(material, CoatModel::measured, r0, widths);
     if (only_ == Only::fluorescence) return;
     addFacets(
         {[](double c) { return 1 - fresnelSchlick(c, 0); }, [](double c) { return fresnelSchlick(c, 0); }},
@@ -211,7 +210,7 @@ std::uint32_t TermBuilder::add(const Material& material, double emissionFactor) 
     else if (material.specular)
         addSpecular(material);
     else if (material.diffuse || !material.fluorescence.empty())
-        addCoatedBase(material, one(), {}, 1, 0, 1, 0);
+        addCoatedBase(material, one(), {}, 0, true);
     return number;
 }
 

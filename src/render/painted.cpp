@@ -145,37 +145,43 @@ void TermBuilder::addReflection(const TextureUse& use, const std::vector<AngleFu
     endLobe(lobe);
 }
 
+Entry TermBuilder::entryOf(const Base& base) {
+    return {base.in.inside, base.in.weight};
+}
+
 sd_lobe TermBuilder::beginBase(const Base& base) const {
     sd_lobe lobe = beginLobe(base.type);
-    lobe.table = base.table;
+    lobe.table = base.out.table;
     if (base.type == SD_LOBE_COATED) {
-        lobe.mean_through = static_cast<float>(base.meanThrough);
+        lobe.table_light = base.in.table;
+        lobe.mean_through = static_cast<float>(base.in.meanThrough);
         setWidths(lobe, base.widths);
     }
     return lobe;
 }
 
 double TermBuilder::glowFactor(const Base& base, const LightGroup& group) {
-    return passedOn(base.meanThrough, group) * base.glowShare;
+    return passedOn(base.out.meanThrough, group) * base.glowShare;
 }
 
 void TermBuilder::addBaseTerm(const Base& base, const LightGroup& group, const std::vector<Curve>& reflected,
                               const std::vector<Curve>& glow, double sign) {
-    const double factor = passedOn(base.meanThrough, group);
+    const double factor = passedOn(base.out.meanThrough, group);
     std::vector<Summand> sum;
     const auto add = [&](std::vector<const Curve*> product, double f) {
-        if (base.weight) product.push_back(base.weight);
+        if (base.out.weight) product.push_back(base.out.weight);
         sum.push_back({std::move(product), f});
     };
     if (only_ != Only::fluorescence)
         for (const Curve& curve : reflected)
             add({&group.spectrum, &curve}, factor);
-    if (only_ != Only::reflection)
+    const bool glows = only_ != Only::reflection && !glow.empty();
+    if (glows)
         for (const Curve& curve : glow)
             add({&curve}, glowFactor(base, group) * sign);
-    // A polynomial's weight, and what a texture takes from a glow, are signed by nature; else only noise of a
-    // measured matrix is.
-    addTerm(sum, !base.weight && sign > 0);
+    // A polynomial's weights, and what a texture takes from a glow, are signed by nature; else only noise of
+    // a measured matrix is.
+    addTerm(sum, !base.out.weight && !base.in.weight && sign > 0, glows);
 }
 
 void TermBuilder::addBase(const Material& material, const Base& base) {
@@ -189,13 +195,17 @@ void TermBuilder::addBase(const Material& material, const Base& base) {
     std::vector<FluorescentBase> bases;
     if (select)
         for (const Select::Choice& choice : select->choices)
-            bases.emplace_back(withReflectance(material, choice.reflectance.curve()), base.inside, notes_);
+            bases.emplace_back(withReflectance(material, choice.reflectance.curve()), base.out.inside, notes_,
+                               entryOf(base));
     else
-        bases.emplace_back(material, base.inside, notes_);
-    if (std::all_of(bases.begin(), bases.end(), [](const FluorescentBase& b) { return b.isBlack(); })) return;
+        bases.emplace_back(material, base.out.inside, notes_, entryOf(base));
+    const auto isDark = [&](const FluorescentBase& b) {
+        return base.glows ? b.isBlack() : b.reflectsNothing();
+    };
+    if (std::all_of(bases.begin(), bases.end(), isDark)) return;
     const std::uint32_t texture = select ? shareTexture(*select) : 0;
     std::vector<size_t> everywhere;
-    for (size_t i = 0; i < material.fluorescence.size(); ++i)
+    for (size_t i = 0; i < material.fluorescence.size() && base.glows; ++i)
         if (!material.fluorescence[i].mask) everywhere.push_back(i);
 
     if (base.reflects || !everywhere.empty()) {
@@ -209,7 +219,7 @@ void TermBuilder::addBase(const Material& material, const Base& base) {
         }
         endLobe(lobe);
     }
-    if (only_ == Only::reflection) return;
+    if (only_ == Only::reflection || !base.glows) return;
     for (size_t i = 0; i < material.fluorescence.size(); ++i) {
         if (!material.fluorescence[i].mask) continue;
         const std::uint32_t strength = strengthTexture(*material.fluorescence[i].mask);
@@ -229,33 +239,34 @@ void TermBuilder::addBase(const Material& material, const Base& base) {
 // black base, less a term for each wavelength that they absorb at.
 void TermBuilder::addTexturedBase(const Material& material, const Base& base) {
     if (only_ == Only::fluorescence && material.fluorescence.empty()) return;
+    const double inside = std::max(base.in.inside, base.out.inside);
     const Image image = spectralTexture(*material.diffuse->texture);
     // A coat sends light back to the base again and again: above 1 / inside each time would bring more.
-    if (base.inside > 0) {
+    if (inside > 0) {
         const double most = largestTexel(world_, image.number);
-        if (most * base.inside >= 1)
+        if (most * inside >= 1)
             throw InputError(
                 material.diffuse->texture->where,
                 fmt::format("{} has a reflectance of {}: under a coat, which sends light back to it, that "
                             "is light without end (allowed: below {})",
-                            material.diffuse->texture->source, rounded(most, 4),
-                            rounded(1 / base.inside, 4)));
+                            material.diffuse->texture->source, rounded(most, 4), rounded(1 / inside, 4)));
     }
-    const int steps = stepsFor(world_, image.number, base.inside, 1);
+    const int steps = stepsFor(world_, image.number, inside, 1);
     const size_t nodes = nodeCount(image.nm, steps);
-    const bool together = base.inside <= 0;  // else what glows is not linear in the texel either
+    const bool together = inside <= 0;  // else what glows is not linear in the texel either
     Material black = material;
     black.diffuse.reset();
-    const FluorescentBase onBlack(black, 0, notes_);
+    const Entry entry = entryOf(base);
+    const FluorescentBase onBlack(black, 0, notes_, entry);
     // Matrices do not know the base: only separable fluorophores depend on it.
     Material separable = material;
     std::erase_if(separable.fluorescence, [](const Fluorescence& part) { return !part.matrixFile.empty(); });
     std::vector<FluorescentBase> absorbing;
-    if (together && !separable.fluorescence.empty()) {
+    if (together && base.glows && !separable.fluorescence.empty()) {
         for (size_t t = 0; t < nodes; ++t) {
             const Curve reflecting = Curve::combined({nodeCurve(image.nm, 1, t)},
                                                      [](std::span<const double> v) { return 1 - v[0]; });
-            absorbing.emplace_back(withReflectance(separable, reflecting), 0, notes_);
+            absorbing.emplace_back(withReflectance(separable, reflecting), 0, notes_, entry);
         }
     }
     const auto numbers = [](const Material& m, auto&& wanted) {
@@ -269,7 +280,7 @@ void TermBuilder::addTexturedBase(const Material& material, const Base& base) {
     if (base.reflects || !absorbing.empty()) {
         sd_lobe lobe = beginBase(base);
         lobe.texture = image.number;
-        lobe.inside = static_cast<float>(base.inside);
+        lobe.inside = static_cast<float>(base.out.inside);
         lobe.steps = steps;
         for (size_t t = 0; t < nodes; ++t) {
             const std::vector<Curve> reflected =
@@ -283,7 +294,7 @@ void TermBuilder::addTexturedBase(const Material& material, const Base& base) {
         }
         endLobe(lobe);
     }
-    if (only_ == Only::reflection) return;
+    if (only_ == Only::reflection || !base.glows) return;
     if (!together) {
         addTexturedGlow(material, base, image);
         return;

@@ -75,7 +75,8 @@ Curve curveOf(const Cumulative& taken) {
 
 /// What is absorbed at a node below all of another's is known when that one sends out; only where the two
 /// overlap does it grow along with the emission, and needs a band of its own.
-Glow glowOf(const FluorescentBase::Separable& part, const Curve& light, const Places& nodes, double inside) {
+Glow glowOf(const FluorescentBase::Separable& part, const Curve& light, const Curve* weightIn,
+            const Places& nodes, double inside) {
     Glow glow;
     const double factor = part.factor * (1 - inside);
     // What is absorbed and what is sent out beside less than a billionth of all of it counts for nothing.
@@ -83,7 +84,10 @@ Glow glowOf(const FluorescentBase::Separable& part, const Curve& light, const Pl
     const std::array<const Curve*, 1> emission{&part.emission};
     const double allEmitted = integrate(emission);
     const auto emitted = part.emission.range(), excited = part.excitation.range();
-    const Cumulative everything(std::vector{part.excitation, wavelength()}, light, excited);
+    std::vector<Curve> weights{part.excitation, wavelength()};
+    const Cumulative everything(weights, light, excited);
+    if (weightIn) weights.push_back(*weightIn);
+    weights.emplace_back();
     const auto ends = [](const std::pair<double, double>& range) {
         return std::isfinite(range.first) && std::isfinite(range.second);
     };
@@ -91,8 +95,8 @@ Glow glowOf(const FluorescentBase::Separable& part, const Curve& light, const Pl
     std::vector<bool> takes;
     for (size_t t = 0; t < nodes.count(); ++t) {
         const auto within = nodes.support(t, excited);
-        taken.emplace_back(std::vector{part.excitation, nodes.curve(t), wavelength()}, light,
-                           ends(within) ? std::optional(within) : std::nullopt);
+        weights.back() = nodes.curve(t);
+        taken.emplace_back(weights, light, ends(within) ? std::optional(within) : std::nullopt);
         takes.push_back(everything.upTo(within.second) - everything.upTo(within.first) >
                         negligible * everything.total());
     }
@@ -125,7 +129,8 @@ Glow glowOf(const FluorescentBase::Separable& part, const Curve& light, const Pl
 }
 
 /// A band for each row of the matrix and each node within its hat.
-Glow glowOf(const FluorescentBase::Bispectral& part, const Curve& light, const Places& nodes, double inside) {
+Glow glowOf(const FluorescentBase::Bispectral& part, const Curve& light, const Curve* weightIn,
+            const Places& nodes, double inside) {
     Glow glow;
     glow.absorbs = false;
     const size_t count = nodes.count(), columns = part.bandCentre.size();
@@ -135,7 +140,8 @@ Glow glowOf(const FluorescentBase::Bispectral& part, const Curve& light, const P
     std::vector<std::vector<double>> irradiance(columns);
     for (size_t i = 0; i < columns; ++i)
         for (size_t t = 0; t < count; ++t) {
-            const std::array<const Curve*, 2> each{&light, &hats[t]};
+            std::vector<const Curve*> each{&light, &hats[t]};
+            if (weightIn) each.push_back(weightIn);
             irradiance[i].push_back(integrate(each, part.bandFrom[i], part.bandTo[i]) / part.width(i));
         }
     for (size_t row = 0; row < part.emission.size(); ++row) {
@@ -163,12 +169,13 @@ Glow glowOf(const FluorescentBase::Bispectral& part, const Curve& light, const P
     return glow;
 }
 
-/// The image of a glow over a texture whose texels lie at `texels`.
+/// The image of a glow over a texture whose texels lie at `texels`, under a coat that reflects `in` of the
+/// exciting light from inside and `out` of what is emitted.
 Texels imageOf(const Glow& glow, const Places& nodes, const float* texels, const sd_texture& texture,
-               double inside) {
+               double in, double out) {
     Texels image{texture.width, texture.height, static_cast<int>(glow.bands.size()), {}};
     const auto bands = static_cast<size_t>(texture.bands), steps = static_cast<size_t>(nodes.steps);
-    std::vector<double> absorbed(nodes.count()), amplified(nodes.count());
+    std::vector<double> taken(nodes.count()), amplified(nodes.count());
     const size_t count = static_cast<size_t>(texture.width) * static_cast<size_t>(texture.height);
     image.texels.reserve(count * glow.bands.size());
     for (size_t i = 0; i < count; ++i, texels += bands) {
@@ -177,12 +184,11 @@ Texels imageOf(const Glow& glow, const Places& nodes, const float* texels, const
             const double further = static_cast<double>(t % steps) / nodes.steps;
             const double rho =
                 further > 0 ? texels[band] * (1 - further) + texels[band + 1] * further : texels[band];
-            absorbed[t] = std::max(0.0, 1 - rho) / (1 - rho * inside);
-            amplified[t] = 1 / (1 - rho * inside);
+            taken[t] = (glow.absorbs ? std::max(0.0, 1 - rho) : 1) / (1 - rho * in);
+            amplified[t] = 1 / (1 - rho * out);
         }
         for (const GlowBand& band : glow.bands)
-            image.texels.push_back(
-                static_cast<float>(band.out.of(amplified) * band.in.of(glow.absorbs ? absorbed : amplified)));
+            image.texels.push_back(static_cast<float>(band.out.of(amplified) * band.in.of(taken)));
     }
     return image;
 }
@@ -192,16 +198,17 @@ Texels imageOf(const Glow& glow, const Places& nodes, const float* texels, const
 void TermBuilder::addTexturedGlow(const Material& material, const Base& base, const Image& image) {
     Material black = material;
     black.diffuse.reset();
-    const FluorescentBase parts(black, base.inside, notes_);
+    const double in = base.in.inside, out = base.out.inside;
+    const FluorescentBase parts(black, out, notes_);
     const sd_texture texture = world_.textures[image.number - 1];
     const std::vector<float> reflectances = finestLevel(world_, image.number);
-    const Places nodes{image.nm, stepsFor(world_, image.number, base.inside, 0, tolerance)};
+    const Places nodes{image.nm, stepsFor(world_, image.number, std::max(in, out), 0, tolerance)};
     const auto add = [&](const LightGroup& group, const Glow& glow, size_t number) {
         if (glow.bands.empty()) return;
         const auto& mask = material.fluorescence[number].mask;
         sd_lobe lobe = beginBase(base);
         if (mask) lobe.strength = strengthTexture(*mask);
-        lobe.texture = addTexels(world_, imageOf(glow, nodes, reflectances.data(), texture, base.inside),
+        lobe.texture = addTexels(world_, imageOf(glow, nodes, reflectances.data(), texture, in, out),
                                  *material.diffuse->texture);
         for (const GlowBand& band : glow.bands)
             for (const LightGroup& other : groups_) {
@@ -213,16 +220,16 @@ void TermBuilder::addTexturedGlow(const Material& material, const Base& base, co
                 std::vector<const Curve*> product;
                 for (const Curve& curve : band.spectrum)
                     product.push_back(&curve);
-                if (base.weight) product.push_back(base.weight);
-                addTerm({{std::move(product), band.factor * glowFactor(base, group)}});
+                if (base.out.weight) product.push_back(base.out.weight);
+                addTerm({{std::move(product), band.factor * glowFactor(base, group)}}, false, true);
             }
         endLobe(lobe);
     };
     for (const LightGroup& group : groups_) {
         for (const auto& part : parts.separable())
-            add(group, glowOf(part, group.spectrum, nodes, base.inside), part.number);
+            add(group, glowOf(part, group.spectrum, base.in.weight, nodes, out), part.number);
         for (const auto& part : parts.bispectral())
-            add(group, glowOf(part, group.spectrum, nodes, base.inside), part.number);
+            add(group, glowOf(part, group.spectrum, base.in.weight, nodes, out), part.number);
     }
 }
 

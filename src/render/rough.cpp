@@ -30,6 +30,16 @@ double RoughBelow::sentBack(double reflectance, double cosine, double whiteMean)
            returned * again;
 }
 
+double RoughBelow::shareOfGlow(double inside, double whiteMean) const {
+    double share = 1;
+    for (double rho : {0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.97, 0.999})
+        for (int i = 0; i <= 32; ++i) {
+            const double cosine = std::pow(i / 32.0, 2);
+            share = std::min(share, (1 - sentBack(rho, cosine, whiteMean)) / (1 - leftBy(inside, rho)));
+        }
+    return share;
+}
+
 RoughBelow roughBelow(const OrenNayar& model, const AngleFunction& through, double index, double inside) {
     const double n2 = index * index, ratio = model.b / model.a;
     const auto refracted = [n2](double cosine) { return std::sqrt(1 - (1 - cosine * cosine) / n2); };
@@ -95,7 +105,8 @@ void TermBuilder::addRough(const Material& material, Base& base, const Direction
         [mean](std::span<const double> v) { return multipleScattering(v[0], mean); }};
     double steepest = 1 - mean;
     if (coated) {
-        const RoughBelow below = roughBelow(model, roundMean(through, base.widths), base.index, base.inside);
+        const RoughBelow below =
+            roughBelow(model, roundMean(through, base.widths), base.index, base.out.inside);
         std::vector<std::vector<sd_piece>> tables = tablesOf(through);
         tables.push_back(tabulate(below.missing));
         tables.push_back(tabulate(below.back));
@@ -114,20 +125,14 @@ void TermBuilder::addRough(const Material& material, Base& base, const Direction
             lobe.inside_rest = static_cast<float>(once);
             lobe.second_rest = static_cast<float>(again);
         }
-        // Fluorophores absorb of what a Lambertian base would leave: no more than this one leaves.
-        for (double rho : {0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 0.97, 0.999})
-            for (int i = 0; i <= 32; ++i) {
-                const double cosine = std::pow(i / 32.0, 2);
-                base.glowShare = std::min(
-                    base.glowShare, (1 - below.sentBack(rho, cosine, mean)) / (1 - leftBy(base.inside, rho)));
-            }
+        base.glowShare = below.shareOfGlow(base.out.inside, mean);
     } else {
         lobe.table = addTables({tabulate([&](double c) { return std::max(0.0, 1 - model.albedo(c)); })});
         lobe.alpha = static_cast<float>(model.b / model.a);
     }
     if (only_ == Only::fluorescence) return;
     Base above = base;  // its transmittance stands in the kernel
-    above.meanThrough = 1;
+    above.out.meanThrough = 1;
     const auto addPart = [&](const Curve& curve) {
         for (const LightGroup& group : groups_)
             addBaseTerm(above, group, {curve}, {}, -1);

@@ -18,6 +18,9 @@ struct RoughBelow {
 
     /// The share that a base of this reflectance sends up for good.
     [[nodiscard]] double sentBack(double reflectance, double cosine, double whiteMean) const;
+    /// Fluorophores absorb of what a Lambertian base would leave: this share of it is no more than this one
+    /// leaves.
+    [[nodiscard]] double shareOfGlow(double inside, double whiteMean) const;
 };
 
 /// `through`: what the coat lets through at a cosine above it; `inside`: its reflectance for diffuse light

@@ -62,11 +62,11 @@ Triple added(Triple xyz, const Eye& eye, std::span<const Curve* const> product, 
     return xyz;
 }
 
-TermRecipe recipeOf(const std::vector<Summand>& sum, const std::vector<LightGroup>& groups, Only only) {
+TermRecipe recipeOf(const std::vector<Summand>& sum, const std::vector<LightGroup>& groups, bool glows) {
     TermRecipe recipe;
     recipe.group = TermRecipe::unknown;
     // What glows under a lamp depends on it by more than a factor.
-    if (sum.size() != 1 || only == Only::fluorescence) return recipe;
+    if (sum.size() != 1 || glows) return recipe;
     const Summand& part = sum.front();
     std::uint32_t group = TermRecipe::none;
     for (const Curve* curve : part.product) {
@@ -100,7 +100,7 @@ std::array<float, 3> relit(const TermRecipe& recipe, const LightGroup& group, co
     return previewFrom(added({}, eye, product, factor));
 }
 
-void TermBuilder::addTerm(const std::vector<Summand>& sum, bool clip) {
+void TermBuilder::addTerm(const std::vector<Summand>& sum, bool clip, bool glows) {
     std::vector<double> bands(grid_.size(), 0.0);
     Triple xyz{};
     for (const Summand& part : sum) {
@@ -129,7 +129,7 @@ void TermBuilder::addTerm(const std::vector<Summand>& sum, bool clip) {
     if (exact_) addExact(sum, bands);
     const std::array<float, 3> preview = previewFrom(xyz);
     terms_.preview.insert(terms_.preview.end(), preview.begin(), preview.end());
-    terms_.recipes.push_back(recipeOf(sum, groups_, only_));
+    terms_.recipes.push_back(recipeOf(sum, groups_, glows));
 }
 
 void TermBuilder::noteLost() const {

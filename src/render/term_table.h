@@ -21,6 +21,7 @@ namespace spectrad {
 
 struct Eye;
 struct Detector;
+struct Entry;
 
 /// How a term depends on the light: a light's spectrum times one curve times a number; or on no light; or in
 /// a way that only the material knows (fluorescence), when `group` is `unknown`.
@@ -78,7 +79,8 @@ class TermBuilder {
 
   private:
     /// `clip`: bands below zero (signed noise of a measurement) become zero, and are counted in the notes.
-    void addTerm(const std::vector<Summand>& sum, bool clip = false);
+    /// `glows`: some of it is excited by the light, which no recipe knows.
+    void addTerm(const std::vector<Summand>& sum, bool clip = false, bool glows = false);
     void addExact(const std::vector<Summand>& sum, const std::vector<double>& bands);
     /// Once per group: light × response.
     void addGroupTerms(const Curve& response, double factor = 1);
@@ -95,16 +97,21 @@ class TermBuilder {
         std::uint32_t number = 0;
         std::vector<double> nm;
     };
-    /// What the diffuse part of a material lies under.
-    struct Base {
-        int type = SD_LOBE_DIFFUSE;     ///< or SD_LOBE_COATED
+    /// How a coat passes light in one direction.
+    struct Passage {
         const Curve* weight = nullptr;  ///< one more factor of the spectrum
         std::uint32_t table = 0;
-        double meanThrough = 1, inside = 0;  ///< of the coat
-        Widths widths = 0;                   ///< the coat's
-        double index = 1;                    ///< the coat's; 1 where it is not known
-        bool reflects = true;                ///< false: a lobe of its own does, only what glows is asked for
-        double glowShare = 1;                ///< of what fluorophores would send out
+        double meanThrough = 1, inside = 0;
+    };
+    /// What the diffuse part of a material lies under.
+    struct Base {
+        int type = SD_LOBE_DIFFUSE;  ///< or SD_LOBE_COATED
+        Passage in, out;             ///< alike for all that is reflected
+        Widths widths = 0;           ///< the coat's
+        double index = 1;            ///< the coat's; 1 where it is not known
+        bool reflects = true;        ///< false: other lobes do, only what glows is asked for
+        bool glows = true;           ///< false: other lobes do
+        double glowShare = 1;        ///< of what fluorophores would send out
     };
     void addBase(const Material& material, const Base& base);
     void addTexturedBase(const Material& material, const Base& base);
@@ -114,6 +121,7 @@ class TermBuilder {
     /// Oren–Nayar's part of a base, its term's factors included; what glows is left to addBase().
     void addRough(const Material& material, Base& base, const DirectionFunction& through);
     [[nodiscard]] sd_lobe beginBase(const Base& base) const;
+    [[nodiscard]] static Entry entryOf(const Base& base);
     void addBaseTerm(const Base& base, const LightGroup& group, const std::vector<Curve>& reflected,
                      const std::vector<Curve>& glow, double sign = 1);
     void addGloss(const Material& material);
@@ -125,8 +133,14 @@ class TermBuilder {
     std::uint32_t shareTexture(const Select& select);
     std::uint32_t reliefTexture(const Relief& relief);
     /// Diffuse base under a coat, its terms weighted by `weight` (one factor of the spectrum).
-    void addCoatedBase(const Material& material, const Curve& weight, const DirectionFunction& through,
-                       double meanThrough, double inside, double index, Widths widths);
+    void addCoatedBase(const Material& material, const Curve& weight, const Coat& coat, Widths widths,
+                       bool glows);
+    /// Where exciting light comes through a coat otherwise than what is emitted gets out; `number`: the
+    /// coat's, see CoatModel.
+    [[nodiscard]] bool glowsApart(const Material& material, const Curve& number) const;
+    /// What such a base's fluorophores send out, whose terms belong to a value of the number for light on its
+    /// way in and one on its way out.
+    void addCoatedGlow(const Material& material, CoatModel model, const Curve& number, Widths widths);
     void addFacets(const std::vector<AngleFunction>& fresnel, const std::vector<Curve>& spectra,
                    Widths widths, const std::optional<TextureUse>& reflects);
     void addReflection(const TextureUse& use, const std::vector<AngleFunction>& fresnel,

@@ -269,7 +269,10 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
             const Real irradiance = strength * cosLight;
             if (lobe.type == SD_LOBE_DIFFUSE) paint(base, term, irradiance, groups);
             if (lobe.type == SD_LOBE_COATED)
-                paint(base, term, irradiance * (first * firstAt(lobe, table, s, toLight, cosLight)), groups);
+                paint(base, term,
+                      irradiance * (first * firstAt(lobe, world.tables.data() + lobe.table_light, s, toLight,
+                                                    cosLight)),
+                      groups);
             if (lobe.type == SD_LOBE_ROUGH) {
                 const Real beyond = std::fma(-cosLight, s.cosView, dot(toLight, s.view));
                 const Real divisor = beyond > 0 ? std::fmax(cosLight, s.cosView) : Real(1.0);

@@ -27,6 +27,7 @@ void addLobe(Plan& plan, int type, std::uint32_t& term, double alpha, std::uint3
     lobe.type = type;
     lobe.term = term;
     lobe.table = static_cast<sd_uint>(world.tables.size());
+    lobe.table_light = lobe.table;
     lobe.functions = functions;
     lobe.multiple_to = multipleApart ? functions : 0;
     lobe.multiple = 0.3f;
@@ -36,14 +37,17 @@ void addLobe(Plan& plan, int type, std::uint32_t& term, double alpha, std::uint3
     lobe.ratio = 0.37f, lobe.inv_n2 = 0.44f, lobe.escape = 0.6f, lobe.rest = 1.7f;
     lobe.inside_rest = 0.7f, lobe.second_rest = 0.2f;
     const size_t each = alphaAcross == 0 ? 1 : SD_AZIMUTHS;
+    if (type == SD_LOBE_COATED) lobe.table_light += static_cast<sd_uint>(each * SD_CELLS);
     const size_t tables = type == SD_LOBE_REFLECTION     ? functions
                           : type == SD_LOBE_FACETS       ? (1 + functions) * each + functions
                           : type == SD_LOBE_ROUGH_COATED ? each + 2
+                          : type == SD_LOBE_COATED       ? 2 * each
                           : type == SD_LOBE_EMISSION || type == SD_LOBE_DIFFUSE ? 0
                                                                                 : each;
     for (size_t t = 0; t < tables; ++t) {
         // At the normal there is no azimuth: coefficients beyond the constant vanish.
-        const bool constant = alphaAcross == 0 || t % SD_AZIMUTHS == 0 || t >= (1 + functions) * each;
+        const bool constant = alphaAcross == 0 || t % SD_AZIMUTHS == 0 ||
+                              (type != SD_LOBE_COATED && t >= (1 + functions) * each);
         const auto table = tabulate([&](double c) {
             const double f = fresnelDielectric(c, 1.3 + 0.2 * static_cast<double>(t));
             return constant ? f : 0.1 * (1 - c) * f;
