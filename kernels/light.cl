@@ -20,8 +20,9 @@ static vfloat arriving(sd_light light, v3 position, v3* to_light) {
     vfloat strength = light.scale * inv;
 #ifdef HAS_SPOT
     if (light.type == SD_LIGHT_SPOT) {
-        const v3 axis = {(vfloat)-light.axis_x, (vfloat)-light.axis_y, (vfloat)-light.axis_z};
-        const vfloat t = clamp((dot3(axis, *to_light) - light.cos_outer) * light.inv_cos_range, 0.0f, 1.0f);
+        /* From the axis to the light's way, which is -to_light. */
+        const v3 apart = {light.axis_x + to_light->x, light.axis_y + to_light->y, light.axis_z + to_light->z};
+        const vfloat t = clamp((light.chord_outer - dot3(apart, apart)) * light.inv_chord_range, 0.0f, 1.0f);
         strength = strength * (t * t * fma((vfloat)-2.0f, t, (vfloat)3.0f));
     }
 #endif

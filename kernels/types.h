@@ -88,8 +88,8 @@ typedef struct sd_light {
     float x, y, z;              /* point, spot: position; directional: unit vector towards the light */
     sd_int type;
     float axis_x, axis_y, axis_z; /* spot: unit vector along which it shines */
-    float cos_outer;            /* spot: cosine of half the cone */
-    float inv_cos_range;        /* spot: 1 / (cos_inner - cos_outer); a cone with a hard edge has a huge value here */
+    float chord_outer;          /* spot: squared chord of half the cone on the unit sphere, 2 (1 - cosine): keeps its digits at any angle */
+    float inv_chord_range;      /* spot: 1 / (chord_outer - chord_inner); a cone with a hard edge has a huge value here */
     float scale;                /* of the group's spectrum */
     sd_uint group;              /* lights of one spectrum share a group, and with it their terms */
     sd_int pad_;

@@ -38,18 +38,24 @@ double photometricIntegral(const Emitter& emitter, const Detector& observer) {
     return luminousEfficacy * integrate(product);
 }
 
-/// Solid angle, sr, that the same intensity as on the axis would fill with a spot's power: ∫ fade dω.
-double spotSolidAngle(double cosOuter, double cosInner) {
-    // Smoothstep over the cosine has mean ½ on its ramp.
-    return 2 * std::numbers::pi * ((1 - cosInner) + 0.5 * (cosInner - cosOuter));
-}
-
+/// A spot's cone by its squared chords on the unit sphere, 2 (1 − cos θ) = 4 sin²(θ/2), at θ where its light
+/// ends and where it begins to fade. Of a narrow cone the cosines have no digits left to tell them apart.
 struct Cone {
-    double cosOuter, cosInner;
+    double outer, inner;
+
+    /// sr that the intensity on the axis would fill with the spot's power: ∫ fade dω, where dω = π d(chord²)
+    /// and a smoothstep has mean ½ on its ramp.
+    [[nodiscard]] double solidAngle() const { return std::numbers::pi / 2 * (inner + outer); }
 };
 Cone coneOf(const Light& light) {
-    const double half = light.angle / 2 * std::numbers::pi / 180;
-    return {std::cos(half), std::cos(half * (1 - light.blend))};
+    const auto chord = [](double degrees) {
+        const double sine = std::sin(degrees * std::numbers::pi / 360);
+        return 4 * sine * sine;
+    };
+    // A hard edge is a ramp over a millionth of the cone, some steps of a float; the power counts it.
+    constexpr double sharpest = 1 - 1e-6;
+    const double outer = chord(light.angle / 2);
+    return {outer, std::min(chord(light.angle / 2 * (1 - light.blend)), outer * sharpest)};
 }
 
 sd_light placed(const Light& light, const Affine& toWorld, const View& view) {
@@ -79,19 +85,15 @@ sd_light placed(const Light& light, const Affine& toWorld, const View& view) {
         l.axis_x = static_cast<float>(along.x);
         l.axis_y = static_cast<float>(along.y);
         l.axis_z = static_cast<float>(along.z);
-        l.cos_outer = static_cast<float>(cone.cosOuter);
-        // A hard edge is a ramp narrower than float resolves.
-        l.inv_cos_range = static_cast<float>(1 / std::max(cone.cosInner - cone.cosOuter, 1e-7));
+        l.chord_outer = static_cast<float>(cone.outer);
+        l.inv_chord_range = static_cast<float>(1 / (cone.outer - cone.inner));
     }
     return l;
 }
 
 double powerToIntensity(const Light& light) {
     if (light.type == LightType::point) return 1 / (4 * std::numbers::pi);
-    if (light.type == LightType::spot) {
-        const Cone cone = coneOf(light);
-        return 1 / spotSolidAngle(cone.cosOuter, cone.cosInner);
-    }
+    if (light.type == LightType::spot) return 1 / coneOf(light).solidAngle();
     return 1;
 }
 

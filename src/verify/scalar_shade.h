@@ -90,9 +90,10 @@ Real arriving(const sd_light& light, VectorOf<Real> position, VectorOf<Real>& to
     toLight = scaled(d, std::sqrt(inv));
     Real strength = light.scale * inv;
     if (light.type == SD_LIGHT_SPOT) {
-        const VectorOf<Real> axis{-light.axis_x, -light.axis_y, -light.axis_z};
+        const VectorOf<Real> apart{light.axis_x + toLight.x, light.axis_y + toLight.y,
+                                   light.axis_z + toLight.z};
         const Real t =
-            std::clamp((dot(axis, toLight) - light.cos_outer) * light.inv_cos_range, Real(0.0), Real(1.0));
+            std::clamp((light.chord_outer - dot(apart, apart)) * light.inv_chord_range, Real(0.0), Real(1.0));
         strength = strength * (t * t * std::fma(-Real(2.0), t, Real(3.0)));
     }
     return square == Real(0.0) ? Real(0.0) : strength;

@@ -203,8 +203,8 @@ void addLights(World& world) {
         l.type = type;
         l.x = x, l.y = y, l.z = z;
         l.axis_x = 0.6f, l.axis_y = -0.48f, l.axis_z = -0.64f;
-        l.cos_outer = 0.7f;
-        l.inv_cos_range = 1 / 0.2f;
+        l.chord_outer = 0.6f;
+        l.inv_chord_range = 1 / 0.4f;
         l.group = group;
         l.scale = scale;
         world.lights.push_back(l);

@@ -45,6 +45,13 @@ double radiance(const Image& image) {
     return sum;
 }
 
+/// The matrix of a node that turns the x–y plane across `direction`.
+std::string facing(Vec3 direction) {
+    const Vec3 z = normalized(direction), x = normalized(cross(Vec3{0, 1, 0}, z)), y = cross(z, x);
+    return fmt::format("{} {} {} 0 {} {} {} 0 {} {} {} 0 0 0 0 1", x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z,
+                       z.z);
+}
+
 const std::string white = "<diffuse reflectance=\"constant:1\"/>";
 // On the observer's own nanometres its functions are linear between the bands, so that nothing but float
 // arithmetic is lost.
@@ -128,4 +135,42 @@ TEST_CASE("a spot's power fills its cone") {
         R"(<light type="spot" position="0 0 2" target="0 0 0" angle="60" blend="0" spectrum="illuminants/FL11" power="12 W"/>)";
     CHECK(radiance(middle(white, spot, "380:780:5")) ==
           Approx(12 / (2 * pi * (1 - std::cos(pi / 6))) / 4 / pi).epsilon(1e-6));
+}
+
+TEST_CASE("a spot's power is all there, however narrow its cone") {
+    if (!haveDevice()) return;
+    // What arrives on a plane across the spot, which stands at 5 m in an oblique direction.
+    const Vec3 place{2.1, -1.7, 4.2};
+    const double distance = std::sqrt(dot(place, place));
+    for (const double angle : {60.0, 10.0, 1.0, 0.3, 0.1, 0.05, 0.02, 0.01, 0.001}) {
+        for (const double blend : {0.0, 0.5}) {
+            const double radius = distance * std::tan(angle / 2 * pi / 180);
+            constexpr int size = 160;
+            const double height = 2.2 * radius, pixel = height / size;
+            RenderSettings settings;
+            settings.wavelengths = parseWavelengths("400,401", {});
+            settings.samples = 16;
+            const Image image = imageOf(
+                fmt::format(
+                    "<scene version=\"1\"><material name=\"m\">{}</material>"
+                    "<node matrix=\"{}\"><plane size=\"20 20\" material=\"m\"/></node>"
+                    "<light type=\"spot\" position=\"{} {} {}\" target=\"0 0 0\" angle=\"{}\" blend=\"{}\" "
+                    "spectrum=\"constant:1\" power=\"100 W over 400:401\"/>"
+                    "<camera type=\"orthographic\" height=\"{}\" look-from=\"{} {} {}\" look-at=\"0 0 0\" "
+                    "size=\"{}x{}\"/></scene>",
+                    white, facing(place), place.x, place.y, place.z, angle, blend, height, place.x, place.y,
+                    place.z, size, size),
+                settings);
+            double watts = 0;
+            for (int y = 0; y < size; ++y)
+                for (int x = 0; x < size; ++x)
+                    watts += pi * image.at(x, y) * pixel * pixel;
+            INFO(angle << " degrees, blend " << blend);
+            CHECK(watts == Approx(100).epsilon(2e-3));
+        }
+    }
+    CHECK_THROWS_WITH(
+        sceneFrom("<scene version=\"1\"><light type=\"spot\" target=\"0 0 -1\" angle=\"0.0009\" "
+                  "spectrum=\"constant:1\" scale=\"1\"/></scene>"),
+        Catch::Contains("0.001"));
 }

@@ -95,7 +95,7 @@ TEST_CASE("code of features that a scene lacks is not given to the compiler") {
                full = preprocessed(planOf(sceneFrom(scene(shiny, lamp + spot + sun + sky))));
     if (!plain || !full) return;
     // Functions of tables, microfacets and uniform light, and the spot's fade.
-    for (const std::string word : {"look_up(", "facets(", "uniform_light(", "- light.cos_outer"}) {
+    for (const std::string word : {"look_up(", "facets(", "uniform_light(", "light.chord_outer -"}) {
         CAPTURE(word);
         CHECK(full->find(word) != std::string::npos);
         CHECK(plain->find(word) == std::string::npos);
