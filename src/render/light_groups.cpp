@@ -12,7 +12,7 @@ namespace spectrad {
 
 namespace {
 
-/// ∫ curve dλ over its own range; formulae without one are integrated as far as their power reaches.
+/// ∫ curve dλ over its own range; of Planck's law, which has none, over all wavelengths.
 double radiometricIntegral(const Emitter& emitter) {
     const Curve& curve = emitter.spectrum.curve();
     if (emitter.amount->over) {
@@ -24,9 +24,7 @@ double radiometricIntegral(const Emitter& emitter) {
             emitter.where,
             "a constant spectrum has no total: say over which wavelengths, as in \"100 W/m2 over 400:700\"");
     const std::array<const Curve*, 1> product{&curve};
-    // Planck's law is the one formula without a range: below 1 nm and beyond 0.1 m nothing is left of it for
-    // any lamp.
-    return curve.range() ? integrate(product) : integrate(product, 1, 1e8);
+    return integrate(product);
 }
 
 double photometricIntegral(const Emitter& emitter, const Detector& observer) {

@@ -45,6 +45,12 @@ double radiance(const Image& image) {
     return sum;
 }
 
+/// Planck's law, W·m⁻²·sr⁻¹·m⁻¹.
+double planckAt(double metres, double kelvin) {
+    constexpr double h = 6.62607015e-34, c = 299792458, k = 1.380649e-23;
+    return 2 * h * c * c / std::pow(metres, 5) / std::expm1(h * c / (metres * k * kelvin));
+}
+
 /// The matrix of a node that turns the x–y plane across `direction`.
 std::string facing(Vec3 direction) {
     const Vec3 z = normalized(direction), x = normalized(cross(Vec3{0, 1, 0}, z)), y = cross(z, x);
@@ -122,6 +128,18 @@ TEST_CASE("a white plane sends what its lamp's radiometric amount says") {
               Approx(7).epsilon(1e-6));
         CHECK(radiance(middle(fmt::format("<emission spectrum=\"{}\" radiance=\"9 W/m2/sr\"/>", lamp), "",
                               range)) == Approx(9).epsilon(1e-6));
+    }
+    // A black body's power lies at all wavelengths, however hot or cold: Stefan and Boltzmann's σT⁴/π.
+    for (const double kelvin : {300.0, 2856.0, 1e5, 1e6, 1e7, 1e8}) {
+        const Image image =
+            middle(white,
+                   fmt::format(R"(<light type="ambient" spectrum="blackbody:{:.0f}" radiance="7 W/m2/sr"/>)",
+                               kelvin),
+                   "3000:3001:1");
+        INFO(kelvin << " K");
+        CHECK(radiance(image) == Approx(7 * planckAt(3000.5e-9, kelvin) * 1e-9 * pi /
+                                        (5.670374419e-8 * kelvin * kelvin * kelvin * kelvin))
+                                     .epsilon(1e-5));
     }
     const std::string constant =
         R"(<light type="directional" direction="0 0 -1" spectrum="constant:1" irradiance="100 W/m2 over 400:700"/>)";
