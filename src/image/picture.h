@@ -18,8 +18,10 @@ struct Picture8 {
 /// Whole or not at all; `text` becomes tEXt chunks (iTXt where it is not ASCII). Marks RGB pictures as sRGB
 /// unless `srgb` is false.
 void writePng(const std::filesystem::path& target, const Picture8& picture,
-              const std::map<std::string, std::string>& text = {}, bool srgb = true);
-/// As grey, RGB or RGBA, whatever the file's own form; 16-bit files are rounded. Throws InputError.
+              const std::map<std::string, std::string>& text = {},
+              const PictureColour& colour = {.srgb = true});
+/// Its colours in sRGB, as grey, RGB or RGBA, whatever the file's own form: sRGB if it does not say (gAMA is
+/// converted, primaries are not), 16 bits rounded. Throws InputError. Maps are no colours: picture_values.h.
 [[nodiscard]] Picture8 readPng(const std::filesystem::path& path);
 /// The same of a file in memory; `name` is what errors call it.
 [[nodiscard]] Picture8 decodePng(std::string_view bytes, const std::string& name);

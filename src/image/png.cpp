@@ -142,6 +142,9 @@ Picture8 decodePng(std::string_view bytes, const std::string& name) {
     }
     picture.pixels.resize(PNG_IMAGE_SIZE(image));
     check(png_image_finish_read(&image, nullptr, picture.pixels.data(), 0, nullptr));
+    // Without a word about its gamma a file of 16 bits is sRGB as one of 8 is; libpng would take it as
+    // linear.
+    image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
     return picture;
 }
 

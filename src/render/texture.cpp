@@ -112,7 +112,8 @@ bool isPicture(const TextureUse& use) {
     return use.bytes || isPictureName(use.source);
 }
 
-Picture8 pictureOf(const TextureUse& use) {
+/// Of its file, or the bytes inside a model.
+static Picture8 pictureOf(const TextureUse& use) {
     return use.bytes ? decodePicture(*use.bytes, use.source) : readPicture8(use.source);
 }
 

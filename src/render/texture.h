@@ -48,8 +48,6 @@ struct SpectralTexture {
 /// wavelengths 380:780:10.
 [[nodiscard]] SpectralTexture textureFromPicture(const Picture8& picture, const Library& library,
                                                  const std::array<double, 3>& tint = {1, 1, 1});
-/// A use's picture: of its file, or the bytes inside a model.
-[[nodiscard]] Picture8 pictureOf(const TextureUse& use);
 [[nodiscard]] bool isPicture(const TextureUse& use);
 
 /// Where textures come from: files here, passes by whoever can render them.

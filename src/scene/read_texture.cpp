@@ -41,15 +41,15 @@ TextureUse readSampling(const Element& element, const char* attribute) {
     return use;
 }
 
-/// A value of a picture: 0…255 of a grey one, #rrggbb of a coloured one.
+/// A value of a picture: 0…255 (0…65535 of 16 bits) of a grey one, #rrggbb of a coloured one.
 std::uint32_t readPictureValue(const Element& element) {
     const std::string text = element.text("value");
-    if (!startsWith(text, "#")) return static_cast<std::uint32_t>(element.integer("value", 0, 0, 255));
+    if (!startsWith(text, "#")) return static_cast<std::uint32_t>(element.integer("value", 0, 0, 65535));
     std::uint32_t rgb = 0;
     const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), rgb, 16);
     if (text.size() != 7 || error != std::errc() || end != text.data() + text.size())
-        element.fail("value", "is no colour (allowed: 0 to 255, or #rrggbb)");
-    return 0x1000000 | rgb;
+        element.fail("value", "is no colour (allowed: 0 to 255, of 16 bits 0 to 65535, or #rrggbb)");
+    return Select::colour | rgb;
 }
 
 }  // namespace
@@ -88,9 +88,9 @@ Select readSelect(Reading& reading, const Element& element) {
         select.choices.push_back({readPictureValue(choice),
                                   reading.spectrum(choice, "reflectance", Role::reflectance),
                                   choice.where()});
-        if (select.mix && select.choices.back().value > 255)
+        if (select.mix && select.isColoured())
             choice.fail("value",
-                        "is a colour, and colours have nothing between them (values=\"mix\" takes 0 to 255)");
+                        "is a colour, and colours have nothing between them (values=\"mix\" takes greys)");
     }
     if (select.choices.empty()) element.fail("'select' needs a <choose> for each value of the picture");
     std::stable_sort(select.choices.begin(), select.choices.end(),
@@ -98,7 +98,7 @@ Select readSelect(Reading& reading, const Element& element) {
     for (size_t i = 1; i < select.choices.size(); ++i)
         if (select.choices[i].value == select.choices[i - 1].value)
             throw InputError(select.choices[i].where, "a second <choose> for the same value");
-    if (select.choices.back().value > 255 && select.choices.front().value <= 255)
+    if (select.isColoured() && select.choices.front().value < Select::colour)
         throw InputError(select.choices.front().where,
                          "values are greys in one <choose> and colours in another (a picture has one kind)");
     return select;

@@ -85,14 +85,18 @@ struct Emitter {
 
 /// A picture whose values stand for measured reflectances.
 struct Select {
+    static constexpr std::uint32_t colour = 0x1000000;  ///< marks a value as one of a coloured picture
     struct Choice {
-        std::uint32_t value = 0;  ///< 0…255 of a grey picture; 0x1RRGGBB of a coloured one
+        std::uint32_t value =
+            0;  ///< 0…255 of a grey picture, 0…65535 of 16 bits; 0x1RRGGBB of a coloured one
         Spectrum reflectance;
         SourceLocation where;
     };
     TextureUse map;
     bool mix = false;  ///< a value between two choices' is a mixture of the two; else it is an error
     std::vector<Choice> choices;  ///< values ascending
+
+    [[nodiscard]] bool isColoured() const { return choices.back().value >= colour; }
 };
 
 struct Diffuse {

@@ -4,6 +4,7 @@
 #include "image/bispectral.h"
 #include "image/cube.h"
 #include "image/picture.h"
+#include "image/picture_values.h"
 #include "scene/load.h"
 #include "spectrum/detector_product.h"
 #include "spectrum/readers/reader.h"
@@ -144,6 +145,7 @@ void envi(std::string_view bytes) {
 void png(std::string_view bytes) {
     const auto path = folder().write("image.png", std::string(bytes));
     refused([&] { (void)readPng(path); });
+    refused([&] { (void)decodeValues(bytes, "image.png"); });
 }
 
 void jpeg(std::string_view bytes) {

@@ -2,6 +2,7 @@
 // it or glows in it; pictures that choose and mask do it exactly.
 #include "image/cube.h"
 #include "image/picture.h"
+#include "image/png16.h"
 #include "scenes/scene_image.h"
 #include "support/temporary_folder.h"
 
@@ -47,7 +48,11 @@ class Workshop {
         (void)writer->finish();
     }
     void grey(const std::string& name, const std::vector<std::uint8_t>& row) const {
-        writePng(folder_.path() / name, {static_cast<int>(row.size()), 1, 1, row}, {}, false);
+        writePng(folder_.path() / name, {static_cast<int>(row.size()), 1, 1, row}, {}, {});
+    }
+    /// Marked as linear.
+    void grey16(const std::string& name, const std::vector<std::uint16_t>& row) const {
+        writePng16(folder_.path() / name, {static_cast<int>(row.size()), 1, 1, row});
     }
     void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
     [[nodiscard]] Scene scene(const std::string& lobes, const std::string& light,
@@ -288,11 +293,35 @@ TEST_CASE("a map picks measured spectra texel by texel, or mixes them by its val
                Catch::Contains("pixel 1,0 is 51") && Catch::Contains("<choose>"));
 }
 
+TEST_CASE("maps of 16 bits count as they stand: masks of their 65535, choices by their numbers") {
+    if (!haveDevice()) return;
+    const Workshop shop;
+    shop.grey16("grey16.png", {128 * 257, 128 * 257, 128 * 257, 128 * 257});
+    const Image eight = shop.render(plain + dye + " mask=\"grey.png\"/>"),
+                sixteen = shop.render(plain + dye + " mask=\"grey16.png\"/>");
+    CHECK(sixteen.values == eight.values);
+    shop.grey16("classes16.png", {300, 300, 40000, 40000});
+    const auto select = [](const std::string& attributes, int last) {
+        return fmt::format(
+            "<diffuse select=\"classes16.png\" filter=\"nearest\"{}><choose value=\"300\" "
+            "reflectance=\"constant:0.2\"/><choose value=\"{}\" reflectance=\"constant:0.6\"/></diffuse>",
+            attributes, last);
+    };
+    const Image want = shop.render("<diffuse reflectance=\"constant:0.6\"/>"),
+                got = shop.render(select("", 40000));
+    CHECK(got.at(20, 10, 5) == Approx(want.at(20, 10, 5) / 3).epsilon(1e-6));
+    CHECK(got.at(50, 10, 5) == Approx(want.at(50, 10, 5)).epsilon(1e-6));
+    CHECK_THAT(shop.refusal(select("", 40001)), Catch::Contains("pixel 2,0 is 40000"));
+    const Image mixed = shop.render(select(" values=\"mix\"", 65535));
+    const double share = (40000.0 - 300) / (65535 - 300);
+    CHECK(mixed.at(50, 10, 5) == Approx(want.at(50, 10, 5) * (0.2 + 0.4 * share) / 0.6).epsilon(1e-5));
+}
+
 TEST_CASE("a map of colours picks by colour; coloured masks and missing colours are refused by pixel") {
     if (!haveDevice()) return;
     const Workshop shop;
     const TemporaryFolder folder;
-    writePng(folder.path() / "classes.png", {2, 1, 3, {255, 0, 0, 0, 0, 255}}, {}, false);
+    writePng(folder.path() / "classes.png", {2, 1, 3, {255, 0, 0, 0, 0, 255}}, {}, {});
     const std::string file = (folder.path() / "classes.png").string();
     const std::string map = "<diffuse select=\"" + file +
                             "\" filter=\"nearest\"><choose value=\"#0000ff\" reflectance=\"constant:0.2\"/>"

@@ -1,5 +1,6 @@
 // Normal and bump maps against closed forms; nothing from below the horizon.
 #include "image/picture.h"
+#include "image/png16.h"
 #include "scenes/scene_image.h"
 #include "support/temporary_folder.h"
 
@@ -36,7 +37,7 @@ Image rendered(const TemporaryFolder& folder, const std::string& text) {
     return imageOf(loadScene(folder.write("scene.xml", text), library(), {}, notes), settings);
 }
 void writeColour(const TemporaryFolder& folder, std::uint8_t r, std::uint8_t g, std::uint8_t b) {
-    writePng(folder.path() / "normal.png", {1, 1, 3, {r, g, b}}, {}, false);
+    writePng(folder.path() / "normal.png", {1, 1, 3, {r, g, b}}, {}, {});
 }
 double worstOf(const Image& image, double want) {
     double worst = 0;
@@ -100,7 +101,7 @@ TEST_CASE("a ramp of heights is a tilted plane, in any unit of length") {
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 64; ++column)
             ramp.push_back(static_cast<std::uint8_t>(column * 3));
-    writePng(folder.path() / "ramp.png", {64, 4, 1, ramp}, {}, false);
+    writePng(folder.path() / "ramp.png", {64, 4, 1, ramp}, {}, {});
     const Vec3 light = normalized({0.3, 0.2, 0.9});
     for (const double depth : {0.4, -1.5}) {
         const double slope = 3 / 255.0 * 64 / 2 * depth;  // over the plane's width of 2
@@ -124,6 +125,26 @@ TEST_CASE("a ramp of heights is a tilted plane, in any unit of length") {
                         "mm")),
                 want) < 2e-6);
     }
+}
+
+TEST_CASE("relief of 16 bits keeps them: slopes that 8 bits do not know, and directions as they stand") {
+    if (!haveDevice()) return;
+    const TemporaryFolder folder;
+    Picture16 ramp{64, 4, 1, {}};
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 64; ++column)
+            ramp.pixels.push_back(static_cast<std::uint16_t>(20000 + 3 * column));  // all the same of 8 bits
+    writePng16(folder.path() / "ramp.png", ramp);
+    const Vec3 light = normalized({0.3, 0.2, 0.9});
+    const double depth = 100, slope = 3 / 65535.0 * 64 / 2 * depth;
+    CHECK(worstOf(rendered(folder,
+                           sceneOf(white + "<bump height=\"ramp.png\" depth=\"100\"/>", plane, sun(light))),
+                  dot(normalized({-slope, 0, 1}), light) / pi) < 2e-6);
+    // writePng16 marks its files as linear, which is no matter of a direction.
+    const std::string bent = white + "<normal map=\"normal.png\"/>";
+    writePng16(folder.path() / "normal.png", {1, 1, 3, {200 * 257, 90 * 257, 220 * 257}});
+    const Vec3 n = normalized({200 / 127.5 - 1, 90 / 127.5 - 1, 220 / 127.5 - 1});
+    CHECK(worstOf(rendered(folder, sceneOf(bent, plane, sun(light))), dot(n, light) / pi) < 1e-6);
 }
 
 TEST_CASE(
@@ -156,7 +177,7 @@ TEST_CASE(
 TEST_CASE("only scenes with bent normals compile them; wrong pictures are refused") {
     const TemporaryFolder folder;
     writeColour(folder, 128, 128, 255);
-    writePng(folder.path() / "grey.png", {1, 1, 1, {7}}, {}, false);
+    writePng(folder.path() / "grey.png", {1, 1, 1, {7}}, {}, {});
     const auto planFrom = [&](const std::string& lobes) {
         Notes notes;
         return planOf(loadScene(folder.write("scene.xml", sceneOf(lobes, plane, sun({0, 0, 1}))), library(),

@@ -1,5 +1,7 @@
 #include "image/picture.h"
+#include "image/picture_values.h"
 #include "jpeg_bytes.h"
+#include "png_bytes.h"
 #include "samples.h"
 
 #include <ImfChannelList.h>
@@ -8,6 +10,8 @@
 #include <ImfInputFile.h>
 #include <ImfStringAttribute.h>
 #include <catch2/catch.hpp>
+
+#include <zlib.h>
 
 using namespace spectrad;
 using namespace spectrad::test;
@@ -52,6 +56,66 @@ TEST_CASE("a JPEG of four inks is refused; a picture is what its name and its by
     CHECK(isPictureName("b/c.jpeg"));
     CHECK_FALSE(isPictureName("cube.exr"));
     CHECK_FALSE(isPictureName("png"));
+}
+
+TEST_CASE("a map's values are those of its file, of 8 or 16 bits, whatever it says about gamma") {
+    for (const int bits : {8, 16})
+        for (const int channels : {1, 2, 3, 4})
+            for (const std::optional<double> gamma : {std::optional<double>{}, {1.0}, {1 / 2.2}, {0.7}}) {
+                const auto value = [bits](int x, int y, int c) {
+                    return (bits == 8 ? 1 : 257) * (7 + 31 * x + 11 * y + 3 * c) + (bits == 8 ? 0 : x);
+                };
+                const PngForm form{bits, channels, channels == 3, gamma};
+                const PictureValues read = decodeValues(pngOf(7, 3, form, value), "a.png");
+                CAPTURE(bits, channels, gamma.value_or(0));
+                REQUIRE(read.width == 7);
+                REQUIRE(read.height == 3);
+                REQUIRE(read.channels == channels);
+                CHECK(read.most == (bits == 8 ? 255 : 65535));
+                size_t different = 0;
+                for (int y = 0; y < 3; ++y)
+                    for (int x = 0; x < 7; ++x)
+                        for (int c = 0; c < channels; ++c)
+                            different += read.values[static_cast<size_t>((y * 7 + x) * channels + c)] !=
+                                         value(x, y, c);
+                CHECK(different == 0);
+            }
+    const auto bits = decodeValues(pngOf(9, 1, {1, 1}, [](int x, int, int) { return x % 2; }), "a.png");
+    CHECK(bits.values == std::vector<std::uint16_t>{0, 255, 0, 255, 0, 255, 0, 255, 0});
+    const PictureValues jpeg = decodeValues(jpegOf(8, 8, 1, [](int, int, int) { return 77; }), "a.jpg");
+    CHECK(jpeg.most == 255);
+    CHECK(jpeg.values == std::vector<std::uint16_t>(64, 77));
+}
+
+TEST_CASE("a map that is damaged is an error at every length, and one of too many pixels") {
+    const std::string whole =
+        pngOf(3, 2, {16, 3}, [](int x, int y, int c) { return 7919 * (x + 3 * y + c); });
+    CHECK(decodeValues(whole, "a.png").width == 3);
+    for (size_t length = 0; length < whole.size(); ++length)
+        CHECK_THROWS_WITH(decodeValues(whole.substr(0, length), "a.png"), Contains("a.png: cannot be read"));
+    // A header of 60000 x 60000 with the sum that belongs to it.
+    std::string wide = whole;
+    for (const size_t at : {16u, 20u})
+        wide.replace(at, 4, std::string("\0\0\xea\x60", 4));
+    const auto sum = crc32(0, reinterpret_cast<const Bytef*>(wide.data() + 12), 17);
+    for (size_t i = 0; i < 4; ++i)
+        wide[29 + i] = static_cast<char>(sum >> (24 - 8 * i) & 255);
+    CHECK_THROWS_WITH(decodeValues(wide, "a.png"), Contains("cannot be in"));
+}
+
+TEST_CASE("a picture's colours are sRGB in 8 bits and 16, unless the file says another gamma") {
+    const auto first = [](const PngForm& form, int value) {
+        return int(decodePng(pngOf(4, 4, form, [value](int, int, int) { return value; }), "a.png").pixels[0]);
+    };
+    for (const int channels : {1, 3, 4})
+        for (const int value : {0, 10, 64, 128, 188, 254, 255}) {
+            CAPTURE(channels, value);
+            CHECK(first({8, channels}, value) == value);
+            CHECK(first({16, channels}, value * 257) == value);
+        }
+    // Linear values; libpng takes sRGB's curve as a power of 2.2: 188 would be right.
+    CHECK(first({8, 3, false, 1.0}, 128) == 186);
+    CHECK(first({16, 3, false, 1.0}, 128 * 257) == 186);
 }
 
 TEST_CASE("a PNG says that it is sRGB, unless it is not, and holds its texts") {

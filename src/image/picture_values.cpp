@@ -1,0 +1,108 @@
+#include "image/picture_values.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "image/picture.h"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <bit>
+#include <csetjmp>
+
+namespace spectrad {
+
+namespace {
+
+/// What libpng is given while it reads; its errors jump out of C code, so nothing in here is made or grown on
+/// that way but the message.
+struct PngInput {
+    std::string_view left;
+    std::string error;
+};
+
+void takeBytes(png_structp png, png_bytep data, size_t count) {
+    auto& input = *static_cast<PngInput*>(png_get_io_ptr(png));
+    if (count > input.left.size()) png_error(png, "the file ends early");
+    input.left.copy(reinterpret_cast<char*>(data), count);
+    input.left.remove_prefix(count);
+}
+
+void keepError(png_structp png, png_const_charp message) {
+    static_cast<PngInput*>(png_get_error_ptr(png))->error = message;
+    png_longjmp(png, 1);
+}
+
+void ignoreWarning(png_structp, png_const_charp) {}
+
+/// False after an error, as readRows(). Both hold no object with a destructor: libpng leaves them by longjmp.
+bool readHeader(png_structp png, png_infop head) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    png_read_info(png, head);
+    png_set_expand(png);
+    if (std::endian::native == std::endian::little) png_set_swap(png);
+    png_set_interlace_handling(png);
+    png_read_update_info(png, head);
+    return true;
+}
+
+bool readRows(png_structp png, png_bytepp rows) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    png_read_image(png, rows);
+    png_read_end(png, nullptr);
+    return true;
+}
+
+PictureValues decodePngValues(std::string_view bytes, const std::string& name) {
+    PngInput input{bytes, {}};
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &input, keepError, ignoreWarning);
+    png_infop head = png ? png_create_info_struct(png) : nullptr;
+    const auto fail = [&](const std::string& message) {
+        png_destroy_read_struct(&png, &head, nullptr);
+        throw InputError({name}, message);
+    };
+    const auto failRead = [&] {
+        fail("cannot be read as PNG: " + (input.error.empty() ? "out of memory" : input.error));
+    };
+    if (!head) failRead();
+    png_set_read_fn(png, &input, takeBytes);
+    if (!readHeader(png, head)) failRead();
+    PictureValues picture{static_cast<int>(png_get_image_width(png, head)),
+                          static_cast<int>(png_get_image_height(png, head)),
+                          png_get_channels(png, head),
+                          static_cast<std::uint16_t>(png_get_bit_depth(png, head) == 16 ? 65535 : 255),
+                          {}};
+    const size_t rowBytes = png_get_rowbytes(png, head), height = static_cast<size_t>(picture.height);
+    // deflate makes at most 1032 bytes of one: a damaged header claims more.
+    if (rowBytes * height / 4096 > bytes.size())
+        fail(fmt::format("damaged: {}x{} pixels cannot be in {} bytes", picture.width, picture.height,
+                         bytes.size()));
+    std::vector<png_byte> narrow;
+    if (picture.most == 255) narrow.resize(rowBytes * height);
+    picture.values.resize(static_cast<size_t>(picture.width) * height *
+                          static_cast<size_t>(picture.channels));
+    png_bytep first =
+        picture.most == 255 ? narrow.data() : reinterpret_cast<png_bytep>(picture.values.data());
+    std::vector<png_bytep> rows;
+    for (size_t y = 0; y < height; ++y)
+        rows.push_back(first + y * rowBytes);
+    if (!readRows(png, rows.data())) failRead();
+    png_destroy_read_struct(&png, &head, nullptr);
+    if (picture.most == 255) picture.values.assign(narrow.begin(), narrow.end());
+    return picture;
+}
+
+}  // namespace
+
+PictureValues decodeValues(std::string_view bytes, const std::string& name) {
+    if (!bytes.starts_with("\xff\xd8\xff")) return decodePngValues(bytes, name);
+    const Picture8 picture = decodeJpeg(bytes, name);
+    return {
+        picture.width, picture.height, picture.channels, 255, {picture.pixels.begin(), picture.pixels.end()}};
+}
+
+PictureValues readValues(const std::filesystem::path& path) {
+    return decodeValues(readFile(path), path.string());
+}
+
+}  // namespace spectrad
