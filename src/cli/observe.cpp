@@ -149,7 +149,9 @@ Json writePicture(const ObserveArguments& arguments, Task task, const Observatio
 Json writeChannels(const ObserveArguments& arguments, const Observation& observation,
                    const ChannelImage& channels) {
     const Detector& detector = observation.detector();
-    std::string unit = detector.tristimulus ? "cd.m^-2 (Y)" : "W.m^-2.sr^-1 x sensitivity";
+    std::string unit = detector.tristimulus ? "cd.m^-2 (Y)"
+                       : detector.luminous  ? fmt::format("cd.m^-2 (V of {})", detector.name)
+                                            : "W.m^-2.sr^-1 x sensitivity";
     if (observation.light()) unit = "perfect diffuser under " + observation.light()->text + ": Y = 100";
     writeChannelsExr(arguments.output, channels.width, channels.height, detector.channels,
                      floatPlanes(channels, detector.channels),
@@ -243,7 +245,7 @@ void addObserve(CLI::App& app, Action& action) {
     command->add_flag("--json", arguments->json, "print a JSON object about what was written");
     command->add_flag("-q,--quiet", arguments->quiet, "no remarks on standard error");
     command->footer(
-        "XYZ are absolute, Y in cd/m2 (683.002 lm/W). A slit cube meets the detector by least-squares "
+        "XYZ are absolute, Y in cd/m2 (683 lm/W at 540 THz). A slit cube meets the detector by least-squares "
         "projection, a point cube by the trapezoid rule. A camera's or the cones' channels reach a display "
         "through the matrix to XYZ that fits their sensitivities best.\n\n"
         "Examples:\n"

@@ -1,6 +1,5 @@
 #include "colour/detector.h"
 
-#include "base/text.h"
 #include "spectrum/detector_product.h"
 #include "spectrum/projection.h"
 
@@ -8,17 +7,6 @@
 #include <array>
 
 namespace spectrad {
-
-/// "x_bar", "x-bar", "xbar" and "x" are all X; other names stay as they are.
-static std::string channelName(std::string_view header) {
-    std::string_view stem = trimmed(header);
-    for (std::string_view tail : {"_bar", "-bar", " bar", "bar"})
-        if (stem.size() == tail.size() + 1 && stem.substr(1) == tail) stem = stem.substr(0, 1);
-    std::string result(stem);
-    if (result.size() == 1 && result[0] >= 'a' && result[0] <= 'z')
-        result[0] = static_cast<char>(result[0] - 'a' + 'A');
-    return result;
-}
 
 Detector detectorFrom(const Spectrum& spectrum) {
     Detector detector;
@@ -34,15 +22,11 @@ Detector detectorFrom(const Spectrum& spectrum) {
             channel = "channel" + std::to_string(c + 1);
         detector.response.push_back(spectrum.curves[c].withOutside(Outside::zero));
     }
-    if (detector.channels == std::vector<std::string>{"V"}) {
-        // The candela is 1/683 W/sr at 540 THz for every luminous efficiency, photopic or scotopic: 1700
-        // lm/W.
-        constexpr double candelaNm = 555.016;  // in standard air, as the tables are
-        const double there = detector.response.front().at(candelaNm);
-        if (there > 0) detector.scale = 683 / there;
-    }
     detector.tristimulus = detector.channels == std::vector<std::string>{"X", "Y", "Z"};
-    if (detector.tristimulus) detector.scale = luminousEfficacy;
+    // Without light at 540 THz a V has no lumens, and stays in plain units.
+    const std::optional<double> efficacy = efficacyOf(spectrum);
+    detector.luminous = efficacy && detector.channels == std::vector<std::string>{"V"};
+    if (detector.tristimulus || detector.luminous) detector.scale = efficacy.value_or(luminousEfficacy);
     return detector;
 }
 

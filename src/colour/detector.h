@@ -1,6 +1,7 @@
 // Detectors: an eye, a camera, anything linear in the spectrum. Channels are any number.
 #pragma once
 
+#include "spectrum/efficacy.h"
 #include "spectrum/resolver.h"
 #include "spectrum/wavelengths.h"
 
@@ -15,14 +16,13 @@ struct Detector {
     std::string name;                   ///< as the user named it
     std::vector<std::string> channels;  ///< "X" "Y" "Z", "L" "M" "S", "R" "G" "B", …
     std::vector<Curve> response;        ///< one per channel, zero outside their range
-    double scale = 1;  ///< 683.002 lm/W for colour matching functions, so that Y is in cd/m²; for a luminous
-                       ///< efficiency V what makes it 683 lm/W at 540 THz; else 1
+    double scale =
+        1;  ///< K_m, lm/W, of X Y Z and V, so that Y and V are in cd/m² (spectrum/efficacy.h); else 1
     bool tristimulus = false;  ///< channels are X Y Z
+    bool luminous = false;     ///< the channel is V, a luminous efficiency
 
     [[nodiscard]] size_t size() const { return response.size(); }
 };
-
-inline constexpr double luminousEfficacy = 683.002;  ///< K_m, lm/W (CIE 2006; FORMAT: Amounts)
 
 /// A library name, with its folder or without ("observers/cie1931-2", "cie1931-2", "nikon-5100"), a file of
 /// the user's, or a product of them (spectrum/detector_product.h); throws InputError.

@@ -1,6 +1,7 @@
 #include "spectrum/detector_product.h"
 
 #include "base/text.h"
+#include "spectrum/efficacy.h"
 
 #include <fmt/format.h>
 
@@ -93,6 +94,8 @@ class Multiplier {
                           : filter                                   ? Role::transmittance
                                                                      : Role::detector;
         spectrum = resolver_.checked(std::move(spectrum), role, factor.where);
+        if (role == Role::detector)
+            if (const auto efficacy = efficacyOf(spectrum)) out_.efficacy = efficacy;
         out_.files.insert(out_.files.end(), spectrum.files.begin(), spectrum.files.end());
         out_.relative = out_.relative || spectrum.relative;
         if (factor.quantum)

@@ -5,6 +5,7 @@
 #include "spectrum/curve.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,7 @@ struct Spectrum {
     std::vector<std::string>
         channels;  ///< names of the curves; one for a plain spectrum, X Y Z for an observer
     std::vector<Curve> curves;
+    std::optional<double> efficacy;  ///< lm/W of a product's observer, which its filters do not change
     std::vector<std::filesystem::path> files;  ///< files that were read for it
     std::string source, licence;               ///< where the data come from, if the file says
 

@@ -81,6 +81,21 @@ TEST_CASE("A film is exposed by the image and projected: brighter scenes look br
         CHECK(more[i - 1] == Approx(y[i]).epsilon(1e-5));
 }
 
+TEST_CASE("What a luminous efficiency sees is in candelas, by day and at night, and its file says so") {
+    const Folder folder;
+    writeFlat(folder);
+    for (const std::string observer : {"cie1924-photopic", "cie1951-scotopic"}) {
+        const Outcome outcome =
+            run(folder, {"observe", "flat.exr", "-o", "v.exr", "--observer", observer, "--json"});
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        CHECK(outcome.json().at("unit") == "cd.m^-2 (V of " + observer + ")");
+    }
+    const Outcome camera =
+        run(folder, {"observe", "flat.exr", "-o", "c.exr", "--observer", "nikon-5100", "--json"});
+    CHECK(camera.json().at("unit") == "W.m^-2.sr^-1 x sensitivity");
+}
+
 TEST_CASE("A film in another projector is another picture; an eye has no projector") {
     const Folder folder;
     writeFlat(folder);

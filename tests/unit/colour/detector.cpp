@@ -89,6 +89,44 @@ TEST_CASE("One W/m2/sr at 555 nm is 683 cd/m2, whether a line or a band") {
     }
 }
 
+TEST_CASE("A watt at 540 THz is 683 lm to every observer of the CIE, each by its own maximum") {
+    for (const auto& [name, efficacy] : {std::pair{"cie1931-2", 683.002},
+                                         {"cie1924-photopic", 683.002},
+                                         {"cie1964-10", 683.599},
+                                         {"cie2015-2", 683.358},
+                                         {"cie2015-10", 683.144},
+                                         {"cie2008-photopic-2", 683.358},
+                                         {"cie2008-photopic-10", 683.144}}) {
+        INFO(name);
+        const Detector observer = detectorFrom(library().find(std::string("observers/") + name).value());
+        CHECK(observer.scale == efficacy);
+        const Curve line = Curve::line(555.016);
+        const std::array<const Curve*, 1> product{&line};
+        CHECK(respond(observer, product)[observer.size() / 2] == Approx(683).epsilon(1e-5));
+    }
+    // To a deficient eye white is as bright as to the normal one whose colours it is given in.
+    const Curve white = Curve::constant(1).withOutside(Outside::zero);
+    for (const auto& [eye, normal] :
+         {std::pair{"protanope", "cie2015-2"}, {"deuteranope", "cie2015-2"}, {"tritanope", "cie2015-2"}}) {
+        const std::array<const Curve*, 1> product{&white};
+        CHECK(respond(detectorFrom(library().find(std::string("observers/") + eye).value()), product)[1] ==
+              Approx(respond(detectorFrom(library().find(std::string("observers/") + normal).value()),
+                             product)[1])
+                  .epsilon(2e-5));
+    }
+}
+
+TEST_CASE("A filter before an observer dims what he sees, and changes nothing of his lumens") {
+    Notes notes;
+    const SpectrumResolver resolver(library(), ".", false, notes);
+    for (const std::string name : {"observers/cie1964-10", "observers/cie2015-2"}) {
+        const Detector bare = detectorFor(name, resolver, {}),
+                       behind = detectorFor(name + " * 300:0.5 900:0.5", resolver, {});
+        CHECK(behind.scale == bare.scale);
+        CHECK(behind.tristimulus);
+    }
+}
+
 TEST_CASE("What lies outside a detector's range, and no light at all, give exactly nothing") {
     const Detector observer = standardObserver(library());
     const Curve none, infrared = Curve::line(1064);
