@@ -24,7 +24,7 @@ White Painter::whiteOf(const Wish& wish, const Look& look) {
 
 ChannelImage Painter::developed(const Wish& wish, const Look& look, ChannelImage channels) {
     const double metered = meteredBy(*look.film, channels, wish.white);
-    return projected(*look.film, std::move(channels), metered, -wish.ev);
+    return projected(*look.film, std::move(channels), metered, wish.ev);
 }
 
 ChannelImage Painter::seen(const Wish& wish, const Look& look) {

@@ -172,7 +172,7 @@ def main():
     for label, detector in DETECTORS.items():
         picture = program.out / f"figure3-{label.replace(' ', '')}.png"
         program.run("observe", cube, "-o", picture, "-q", "--observer", detector, "--exposure",
-                    "-0.7" if label == "film" else "0")
+                    "0.7" if label == "film" else "0")
         panels.append(picture)
         seam_rows(program, 3, cube, f"D65, {label}", detector, rows)
     plate(program.out / "figure3.png", panels)

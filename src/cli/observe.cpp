@@ -168,7 +168,7 @@ ExitCode observe(const ObserveArguments& arguments) {
     const Cube cube = readCube(arguments.cube, console.notes());
     const bool film = namesFilm(arguments.observer.observer);
     ObserverArguments observer = arguments.observer;
-    if (film) observer.filmStops = -std::exchange(task.rendering.base.exposure, Exposure{}).ev;
+    if (film) observer.filmStops = std::exchange(task.rendering.base.exposure, Exposure{}).ev;
     const Observation observation(observer, cube.info, console.notes());
     console.printNotes();
     const ChannelImage channels = observation.channels(cube);
@@ -240,7 +240,7 @@ void addObserve(CLI::App& app, Action& action) {
         ->add_option("--exposure", arguments->exposure,
                      "stops: the white's luminance x 2^-EV is shown as display white; auto, and a white "
                      "without luminance: "
-                     "the 99th percentile of Y is; default: 0")
+                     "the 99th percentile of Y is; a film is exposed by EV stops more; default: 0")
         ->type_name("EV|auto");
     command->add_flag("--json", arguments->json, "print a JSON object about what was written");
     command->add_flag("-q,--quiet", arguments->quiet, "no remarks on standard error");

@@ -79,6 +79,19 @@ TEST_CASE("A film is exposed by the image and projected: brighter scenes look br
     const std::vector<double> more = luminances("50,50,50");
     for (size_t i = 1; i < y.size(); ++i)
         CHECK(more[i - 1] == Approx(y[i]).epsilon(1e-5));
+    // And so is a stop of exposure more, for the film as for an eye.
+    for (const std::string observer : {"generic-reversal", "cie1931-2"}) {
+        const auto picture = [&](const std::string& white, const std::string& exposure) {
+            REQUIRE(run(folder, {"observe", "ramp.exr", "-o", "x.png", "-q", "--observer", observer,
+                                 "--white", white, "--exposure", exposure})
+                        .code == 0);
+            return spectrad::readPng(folder / "x.png").pixels;
+        };
+        INFO(observer);
+        const auto plain = picture("1e5,1e5,1e5", "0"), brighter = picture("1e5,1e5,1e5", "1");
+        CHECK(brighter == picture("5e4,5e4,5e4", "0"));
+        CHECK(brighter[3 * 4 + 1] > plain[3 * 4 + 1]);
+    }
 }
 
 TEST_CASE("What a luminous efficiency sees is in candelas, by day and at night, and its file says so") {

@@ -83,7 +83,7 @@ TEST_CASE("films, detectors of scenes and whites of the image: view shows what o
     folder.write(
         "script.txt",
         "set observer=generic-reversal\nscreenshot film.png\n"
-        "set white=illuminants/D65\nset exposure=0.5\nscreenshot darker.png\nset exposure=0\nset white=\n"
+        "set white=illuminants/D65\nset exposure=0.5\nscreenshot brighter.png\nset exposure=0\nset white=\n"
         "set observer=rig.xml#left\nset exposure=auto\nscreenshot left.png\n"
         "set observer=cie1931-2\nset white=at:20,30\nscreenshot place.png\n"
         "set white=image\nset exposure=auto\nscreenshot grey.png\n"
@@ -100,7 +100,7 @@ TEST_CASE("films, detectors of scenes and whites of the image: view shows what o
         CHECK(codesApart(folder / picture, folder / "o.png") <= 1);
     };
     observed("film.png", {"--observer", "generic-reversal"});
-    observed("darker.png",
+    observed("brighter.png",
              {"--observer", "generic-reversal", "--white", "illuminants/D65", "--exposure", "0.5"});
     observed("left.png", {"--observer", "rig.xml#left"});
     observed("place.png", {"--white", "at:20,30"});
