@@ -57,6 +57,10 @@ class Session : public Wish {
     [[nodiscard]] const Library& library() const { return library_; }
     [[nodiscard]] Look& look(int which) { return looks.at(static_cast<size_t>(which)); }
     [[nodiscard]] Display displayFor(const Look& look) const { return Wish::displayFor(look, standard_); }
+    /// For CIE 1931, which the chromaticities in files are meant for.
+    [[nodiscard]] Display displayForStandard() const {
+        return primaries ? primaries->seenBy(standard_) : codes;
+    }
 
     /// "lamp.spectrum=illuminants/A", "lamp.times=0.5", "lamp.on=false", "ink.reflectance=constant:0.5",
     /// "observer=cie1964-10", "adapt=cat16", "white=illuminants/D50" (empty: the first light),

@@ -1,5 +1,6 @@
 // Scripts: each action played to its end.
 #include "base/files.h"
+#include "render/picture_colour.h"
 #include "viewer/viewer.h"
 
 #include <fmt/format.h>
@@ -31,7 +32,7 @@ void Viewer::writeAlone(const std::filesystem::path& target) {
              {{"Software", session_.software},
               {"Description", fmt::format("{} seen by {}", session_.about().file().string(),
                                           session_.look(0).eye->detector.name)}},
-             session_.display == "srgb");
+             pictureColour(session_.displayForStandard()));
 }
 
 void Viewer::savePicture(const std::filesystem::path& target) {
@@ -84,7 +85,7 @@ void Viewer::play(const Action& action) {
             const FaceSize size = face_.size();
             if (size.pixelWidth < 1 || size.pixelHeight < 1)
                 throw InputError("a window of no size has no screenshot");
-            writePng(action.text, picture());
+            writePng(action.text, picture(), {}, pictureColour(session_.displayForStandard()));
             return;
         }
         case Action::Kind::savePicture:

@@ -10,6 +10,7 @@
 #include "colour/develop.h"
 #include "image/picture.h"
 #include "image/png16.h"
+#include "render/picture_colour.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -143,7 +144,7 @@ ExitCode exposeCube(const ExposeArguments& arguments) {
             rendered(arguments, mosaic ? demosaiced(electrons, *mosaic) : electrons, detector,
                      resolver.resolve(white, Role::light, {}).curve(), library, resolver);
         writePng(arguments.picture, {picture.width, picture.height, 3, picture.rgb},
-                 {{"Software", "spectrad " SPECTRAD_VERSION}}, arguments.display == "srgb");
+                 {{"Software", "spectrad " SPECTRAD_VERSION}}, pictureColour(displayFor(arguments.display)));
         out["picture"] = arguments.picture;
         out["white"] = white;
     }

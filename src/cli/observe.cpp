@@ -7,6 +7,7 @@
 #include "colour/rendering.h"
 #include "colour/spectral_display.h"
 #include "image/picture.h"
+#include "render/picture_colour.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -116,6 +117,8 @@ Json writePicture(const ObserveArguments& arguments, Task task, const Observatio
                   const Cube& cube, const ChannelImage& channels, Notes& notes) {
     const ChannelImage xyz = observation.xyz(channels);
     DevelopSettings& settings = task.rendering.base;
+    // A file's chromaticities are CIE 1931's, whoever looks.
+    const PictureColour colour = pictureColour(settings.display);
     if (task.spectral && observation.detector().tristimulus)
         settings.display = task.spectral->seenBy(observation.detector());
     const White white = settings.white = observation.white(xyz);
@@ -130,7 +133,7 @@ Json writePicture(const ObserveArguments& arguments, Task task, const Observatio
                fmt::format("{} seen by {}, white {} at {} cd/m2, {} adaptation, for {}", arguments.cube,
                            observation.detector().name, white.name, rounded(picture.whiteLuminance, 6),
                            arguments.adapt, settings.display.name)}},
-             arguments.display == "srgb");
+             colour);
     constexpr double worthSaying = 0.02;  // the percentile of auto exposure alone clips 1 %
     if (picture.clippedShare() > worthSaying)
         notes.say(fmt::format(

@@ -1,9 +1,11 @@
 // Pictures for people: 8-bit PNG, and float EXR of a detector's own channels.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +17,17 @@ struct Picture8 {
     std::vector<std::uint8_t> pixels;         ///< interleaved, row 0 on top
 };
 
-/// Whole or not at all; `text` becomes tEXt chunks (iTXt where it is not ASCII). Marks RGB pictures as sRGB
-/// unless `srgb` is false.
+/// What a picture's numbers mean to who shows it: the chunks of a PNG about colour. Nothing set, nothing
+/// said.
+struct PictureColour {
+    bool srgb = false;
+    /// ColourPrimaries and TransferCharacteristics of ITU-T H.273, full range (cICP).
+    std::optional<std::array<std::uint8_t, 2>> codes{};
+    std::optional<std::array<double, 8>> chromaticities{};  ///< x, y of white, red, green, blue (cHRM)
+    std::optional<double> gamma{};                          ///< light = signal to this power (gAMA)
+};
+
+/// Whole or not at all; `text` becomes tEXt chunks (iTXt where it is not ASCII).
 void writePng(const std::filesystem::path& target, const Picture8& picture,
               const std::map<std::string, std::string>& text = {},
               const PictureColour& colour = {.srgb = true});

@@ -39,9 +39,25 @@ void keepError(png_structp png, png_const_charp message) {
 
 void ignoreWarning(png_structp, png_const_charp) {}
 
+/// Before the picture's own chunks. libpng 1.6 has no name for cICP before 1.6.45, so it goes as unknown.
+void markColour(png_structp png, png_infop head, const PictureColour& colour) {
+    if (colour.srgb) png_set_sRGB(png, head, PNG_sRGB_INTENT_RELATIVE);
+    if (colour.gamma) png_set_gAMA(png, head, 1 / *colour.gamma);
+    if (colour.chromaticities) {
+        const double* c = colour.chromaticities->data();
+        png_set_cHRM(png, head, c[0], c[1], c[2], c[3], c[4], c[5], c[6], c[7]);
+    }
+    if (colour.codes) {
+        png_byte data[4]{(*colour.codes)[0], (*colour.codes)[1], 0, 1};  // R G B, full range
+        png_unknown_chunk chunk{{'c', 'I', 'C', 'P', 0}, data, sizeof data, PNG_HAVE_IHDR};
+        png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, chunk.name, 1);
+        png_set_unknown_chunks(png, head, &chunk, 1);
+    }
+}
+
 /// False after an error. Holds no object with a destructor: libpng leaves it by longjmp.
 bool encode(png_structp png, png_infop head, const Picture8& picture, png_bytepp rows, png_textp texts,
-            int textCount, bool srgb) {
+            int textCount, const PictureColour& colour) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     const int type = picture.channels == 1   ? PNG_COLOR_TYPE_GRAY
                      : picture.channels == 3 ? PNG_COLOR_TYPE_RGB
@@ -49,7 +65,7 @@ bool encode(png_structp png, png_infop head, const Picture8& picture, png_bytepp
     png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
     png_set_IHDR(png, head, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height),
                  8, type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    if (srgb) png_set_sRGB(png, head, PNG_sRGB_INTENT_RELATIVE);
+    markColour(png, head, colour);
     if (textCount > 0) png_set_text(png, head, texts, textCount);
     png_set_rows(png, head, rows);
     png_write_png(png, head, PNG_TRANSFORM_IDENTITY, nullptr);
@@ -80,7 +96,7 @@ std::vector<png_text> pngTexts(const std::map<std::string, std::string>& text, c
 }  // namespace
 
 void writePng(const std::filesystem::path& target, const Picture8& picture,
-              const std::map<std::string, std::string>& text, bool srgb) {
+              const std::map<std::string, std::string>& text, const PictureColour& colour) {
     const SourceLocation where{target.string()};
     const bool channelsFit = picture.channels == 1 || picture.channels == 3 || picture.channels == 4;
     const size_t rowBytes =
@@ -102,7 +118,8 @@ void writePng(const std::filesystem::path& target, const Picture8& picture,
     bool encoded = false;
     if (head) {
         png_set_write_fn(png, &output, appendBytes, nullptr);
-        encoded = encode(png, head, picture, rows.data(), texts.data(), static_cast<int>(texts.size()), srgb);
+        encoded =
+            encode(png, head, picture, rows.data(), texts.data(), static_cast<int>(texts.size()), colour);
     }
     png_destroy_write_struct(&png, &head);
     if (!encoded)
@@ -125,6 +142,9 @@ Picture8 decodePng(std::string_view bytes, const std::string& name) {
         throw InputError({name}, "cannot be read as PNG: " + message);
     };
     check(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()));
+    // Without a word about its gamma a file of 16 bits is sRGB as one of 8 is; libpng would take it as
+    // linear.
+    image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
     const bool alpha = (image.format & PNG_FORMAT_FLAG_ALPHA) != 0,
                colour = (image.format & PNG_FORMAT_FLAG_COLOR) != 0;
     image.format = alpha ? PNG_FORMAT_RGBA : colour ? PNG_FORMAT_RGB : PNG_FORMAT_GRAY;
@@ -142,9 +162,6 @@ Picture8 decodePng(std::string_view bytes, const std::string& name) {
     }
     picture.pixels.resize(PNG_IMAGE_SIZE(image));
     check(png_image_finish_read(&image, nullptr, picture.pixels.data(), 0, nullptr));
-    // Without a word about its gamma a file of 16 bits is sRGB as one of 8 is; libpng would take it as
-    // linear.
-    image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
     return picture;
 }
 

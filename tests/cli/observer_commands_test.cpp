@@ -1,7 +1,9 @@
 // Detectors by every way of naming them, from the command line.
+#include "base/files.h"
 #include "cli/support.h"
 #include "image/picture.h"
 
+#include <array>
 #include <cmath>
 
 using cli::Folder;
@@ -107,6 +109,37 @@ TEST_CASE("What a luminous efficiency sees is in candelas, by day and at night, 
     const Outcome camera =
         run(folder, {"observe", "flat.exr", "-o", "c.exr", "--observer", "nikon-5100", "--json"});
     CHECK(camera.json().at("unit") == "W.m^-2.sr^-1 x sensitivity");
+}
+
+TEST_CASE("A picture says which display it is for") {
+    const Folder folder;
+    writeFlat(folder);
+    folder.write("own.txt",
+                 "red 0.64 0.33\ngreen 0.21 0.71\nblue 0.15 0.06\nwhite 0.3127 0.329\ngamma 2.4\n");
+    const auto chunks = [&](const std::string& display) {
+        const Outcome outcome =
+            run(folder, {"observe", "flat.exr", "-o", "d.png", "-q", "--display", display});
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        REQUIRE(run(folder,
+                    {"expose", "flat.exr", "-o", "r.exr", "--picture", "e.png", "-q", "--display", display})
+                    .code == 0);
+        std::array<std::string, 2> found;
+        for (size_t i = 0; i < 2; ++i) {
+            const std::string bytes = spectrad::readFile(folder / (i == 0 ? "d.png" : "e.png"));
+            for (const char* name : {"sRGB", "cICP", "gAMA", "cHRM"})
+                if (bytes.find(name) < bytes.find("IDAT")) found[i] += std::string(name) + " ";
+            const size_t code = bytes.find("cICP");
+            if (code != std::string::npos)
+                found[i] += std::to_string(bytes[code + 4]) + "/" + std::to_string(bytes[code + 5]);
+        }
+        CHECK(found[0] == found[1]);
+        return found[0];
+    };
+    CHECK(chunks("srgb") == "sRGB ");
+    CHECK(chunks("p3") == "cICP gAMA cHRM 12/13");
+    CHECK(chunks("rec2020") == "cICP cHRM 9/14");
+    CHECK(chunks("own.txt") == "gAMA cHRM ");
 }
 
 TEST_CASE("A film in another projector is another picture; an eye has no projector") {

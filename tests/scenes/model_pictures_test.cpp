@@ -49,7 +49,7 @@ void writePicture(const TemporaryFolder& folder) {
     for (int i = 0; i < 36; ++i)
         picture.pixels.push_back(static_cast<std::uint8_t>(i * 71 + i * i * 5));
     writePng(folder.path() / "p.png", picture);
-    writePng(folder.path() / "n.png", {1, 1, 3, {180, 100, 220}}, {}, false);
+    writePng(folder.path() / "n.png", {1, 1, 3, {180, 100, 220}}, {}, {});
 }
 const std::string inks =
     R"("materials":[{"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0.5,"baseColorTexture":{"index":0}}}],"textures":[{"source":0}])";

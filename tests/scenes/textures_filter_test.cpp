@@ -38,7 +38,7 @@ Image rendered(const TemporaryFolder& folder, const std::string& text, int sampl
 
 void writeGrey(const TemporaryFolder& folder, int width, int height,
                const std::vector<std::uint8_t>& pixels) {
-    writePng(folder.path() / "map.png", {width, height, 1, pixels}, {}, false);
+    writePng(folder.path() / "map.png", {width, height, 1, pixels}, {}, {});
 }
 
 }  // namespace

@@ -124,9 +124,34 @@ TEST_CASE("a PNG says that it is sRGB, unless it is not, and holds its texts") {
     writePng(folder / "a.png", picture, {{"Software", "Spectrad"}, {"Comment", "λ"}, {"Empty", ""}});
     const std::string bytes = bytesOf(folder / "a.png");
     CHECK_THAT(bytes, Contains("sRGB") && Contains("tEXt") && Contains("iTXt") && Contains("λ"));
-    writePng(folder / "b.png", picture, {}, false);
+    writePng(folder / "b.png", picture, {}, {});
     CHECK_THAT(bytesOf(folder / "b.png"), !Contains("sRGB") && !Contains("tEXt"));
     CHECK(readPng(folder / "b.png").pixels == picture.pixels);
+}
+
+TEST_CASE("a PNG for another display holds its code points, primaries and gamma before its pixels") {
+    const Folder folder;
+    const Picture8 picture{1, 1, 3, {1, 2, 3}};
+    writePng(folder / "p3.png", picture, {},
+             {.codes = {{12, 13}},
+              .chromaticities = {{0.3127, 0.329, 0.68, 0.32, 0.265, 0.69, 0.15, 0.06}},
+              .gamma = 2.2});
+    const std::string bytes = bytesOf(folder / "p3.png");
+    CHECK_THAT(bytes, Contains(std::string("\0\0\0\4cICP\x0c\x0d\0\1", 12)) && !Contains("sRGB"));
+    CHECK(bytes.find("cICP") < bytes.find("IDAT"));
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    REQUIRE(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()));
+    png_image_free(&image);
+    const auto number = [&bytes](const char* chunk, size_t i) {  // 4 bytes, in 100000ths
+        const auto* p = reinterpret_cast<const unsigned char*>(bytes.data() + bytes.find(chunk) + 4 + 4 * i);
+        return (p[0] << 24 | p[1] << 16 | p[2] << 8 | p[3]) / 1e5;
+    };
+    CHECK(number("gAMA", 0) == Approx(1 / 2.2).margin(1e-5));
+    CHECK(number("cHRM", 0) == Approx(0.3127));
+    CHECK(number("cHRM", 2) == Approx(0.68));
+    CHECK(number("cHRM", 7) == Approx(0.06));
+    CHECK(readPng(folder / "p3.png").pixels == picture.pixels);
 }
 
 TEST_CASE("a picture that is none, or a place that cannot be written, is an error") {

@@ -24,7 +24,7 @@ TEST_CASE(
     "a texture larger than the device's memory is an error at its place that names file, numbers, device") {
     const TemporaryFolder folder;
     const Library library(std::filesystem::path(SPECTRAD_SOURCE) / "spectra");
-    writePng(folder.path() / "wall.png", {8, 4, 1, std::vector<std::uint8_t>(32, 77)}, {}, false);
+    writePng(folder.path() / "wall.png", {8, 4, 1, std::vector<std::uint8_t>(32, 77)}, {}, {});
     Cube cube;
     cube.info.width = 8, cube.info.height = 4;
     cube.info.wavelengths.nm = {400, 500, 600};
