@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "image/cube_check.h"
+#include "image/envi_units.h"
 #include "image/exr_layout.h"
 #include "image/printable.h"
 
@@ -44,28 +45,6 @@ constexpr std::array<std::string_view, 24> readKeys{"samples",
                                                     "y start",
                                                     "file compression",
                                                     "major frame offsets"};
-
-/// Radiance units met in ENVI headers, reduced to letters and digits in lower case, and what turns them into
-/// W·m⁻²·sr⁻¹·nm⁻¹.
-constexpr std::array<std::pair<std::string_view, double>, 12> radianceUnits{{{"wm2srnm", 1},
-                                                                             {"wm2sr1nm1", 1},
-                                                                             {"wm2nmsr", 1},
-                                                                             {"wm2srum", 1e-3},
-                                                                             {"wm2sr1um1", 1e-3},
-                                                                             {"wm2umsr", 1e-3},
-                                                                             {"mwm2srnm", 1e-3},
-                                                                             {"mwm2sr1nm1", 1e-3},
-                                                                             {"uwcm2srnm", 1e-2},
-                                                                             {"uwcm2sr1nm1", 1e-2},
-                                                                             {"uwcm2nmsr", 1e-2},
-                                                                             {"mwcm2srum", 1e-2}}};
-
-std::string lettersAndDigits(std::string_view text) {
-    std::string bare;
-    for (char c : lowerCase(text))
-        if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) bare += c;
-    return bare;
-}
 
 Interleave interleaveOf(const Header& header, const SourceLocation& file) {
     const Field* field = header.find("interleave");
@@ -121,15 +100,13 @@ void readQuantity(const Header& header, Raster& raster, const SourceLocation& fi
         notes.warn(file, "does not say what it holds; read as radiance in W/(m^2 sr nm)");
         return;
     }
-    const std::string bare = lettersAndDigits(units->value);
-    const auto known =
-        std::find_if(radianceUnits.begin(), radianceUnits.end(), [&](auto& u) { return u.first == bare; });
-    if (known == radianceUnits.end()) {
+    const auto factor = radianceUnit(units->value);
+    if (!factor) {
         notes.warn(header.where(*units),
                    "data units '" + printable(units->value) + "' are read as W/(m^2 sr nm)");
         return;
     }
-    raster.scale = known->second;
+    raster.scale = *factor;
     if (raster.scale != 1)
         notes.say(fmt::format("{}: {} x {} = W/(m^2 sr nm)", file.file, printable(units->value),
                               shortest(raster.scale)));

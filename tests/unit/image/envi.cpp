@@ -207,6 +207,34 @@ TEST_CASE("scale factors, gains, offsets, units and marks of no data are honoure
     CHECK_THAT(readFloat(folder, nmHeader + "bbl = {1, 0}\n").notes, Contains("bad"));
 }
 
+TEST_CASE("units of radiance are known in every order and spelling, and others are said") {
+    const Folder folder;
+    for (const auto& [unit, factor] : {std::pair{"W/(m^2 sr nm)", 1.0},
+                                       {"W m-2 sr-1 um-1", 1e-3},
+                                       {"mW/(cm^2*um*sr)", 1e-2},
+                                       {"mW/cm^2/um/sr", 1e-2},
+                                       {"\xc2\xb5W/(cm2 nm sr)", 1e-2},
+                                       {"\xce\xbcW cm^-2 sr^-1 nm^-1", 1e-2},
+                                       {"\xb5W/cm2/sr/nm", 1e-2},
+                                       {"W/(m2 sr \xc2\xb5m)", 1e-3},
+                                       {"Watts/(m^2 steradian micrometer)", 1e-3},
+                                       {"nW/mm^2/sr/nm", 1e-3}}) {
+        INFO(unit);
+        const auto read = readFloat(folder, "wavelength units = nm\nwavelength = {400, 500}\ndata units = " +
+                                                std::string(unit) + "\n");
+        CHECK(read.cube.row(1, 1)[2] == static_cast<float>(factor * sample(2, 1, 1)));
+        CHECK_THAT(read.notes, !Contains("are read as"));
+    }
+    for (const std::string unit :
+         {"counts", "W/m2/sr", "mW/(m2 sr cm-1)", "W W/m2/sr/nm", "1000 W/m2/sr/nm"}) {
+        INFO(unit);
+        CHECK_THAT(
+            readFloat(folder, "wavelength units = nm\nwavelength = {400, 500}\ndata units = " + unit + "\n")
+                .notes,
+            Contains("are read as"));
+    }
+}
+
 TEST_CASE("an error in an ENVI header names file and line") {
     const Folder folder;
     const auto refused = [&](const std::string& rest, const char* reason) {
