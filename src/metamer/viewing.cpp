@@ -62,8 +62,9 @@ std::vector<std::vector<double>> Viewing::weights(const std::vector<double>& nm)
             row[j] = left < right ? integrate(under, left, right) : 0;
         }
         const double far = 10'000;  // nm; detectors end long before
-        row.front() += integrate(product, 1, nm.front());
-        row.back() += integrate(product, nm.back(), far);
+        // A line on the outermost wavelength is under its hat already: what lies beyond begins next to it.
+        row.front() += integrate(product, 1, std::nextafter(nm.front(), 0));
+        row.back() += integrate(product, std::nextafter(nm.back(), far), far);
         for (double& w : row)
             w *= scale_ * detector_.scale;
         result.push_back(std::move(row));

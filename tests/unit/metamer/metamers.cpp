@@ -61,6 +61,24 @@ TEST_CASE("Weights on nodes are the exact signals of reflectances that are linea
     CHECK(under.xyz(Curve::constant(1))[1] == Approx(1).epsilon(1e-12));
 }
 
+TEST_CASE("A lamp of lines gives its weight once, wherever its lines lie on the wavelengths") {
+    const std::vector<double> nm{450, 500, 550, 600}, value{0.2, 0.9, 0.3, 0.6};
+    for (const double at : {440.0, 450.0, 470.0, 500.0, 600.0, 630.0}) {
+        const Viewing under("line", Curve::line(at),
+                            detectorFrom(library().find("observers/cie1931-2").value()),
+                            standardObserver(library()));
+        const std::vector<double> exact = under.signals(Curve::table(nm, value, Outside::hold));
+        const auto weights = under.weights(nm);
+        INFO(at << " nm");
+        for (size_t c = 0; c < 3; ++c) {
+            double sum = 0;
+            for (size_t j = 0; j < nm.size(); ++j)
+                sum += weights[c][j] * value[j];
+            CHECK(sum == Approx(exact[c]).epsilon(1e-12));
+        }
+    }
+}
+
 TEST_CASE("Every patch of the ColorChecker gets five metamers within 0 and 1 that match under D65") {
     const Spectrum chart = library().find("charts/colorchecker").value();
     const std::vector<Viewing> match{viewing("D65")}, differ{viewing("A")};
