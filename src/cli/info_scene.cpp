@@ -42,6 +42,11 @@ std::vector<std::string> namesOf(const std::vector<Named>& all) {
     return names;
 }
 
+/// Those that surfaces of this picture wear; the world's first entry is what stands behind them.
+size_t materialsWorn(const Plan& plan) {
+    return plan.world.materials.size() - 1;
+}
+
 Json described(const Scene& scene, const Plan& plan, const std::vector<MaterialReport>& materials,
                const std::optional<Strips>& strips) {
     return {{"scene", scene.file},
@@ -54,7 +59,7 @@ Json described(const Scene& scene, const Plan& plan, const std::vector<MaterialR
             {"height", plan.view.height},
             {"triangles", plan.triangles()},
             {"lights", plan.lights()},
-            {"materials", plan.world.materials.size()},
+            {"materials", materialsWorn(plan)},
             {"terms", plan.terms.count()},
             {"features", plan.features},
             {"defines", plan.defines},
@@ -80,7 +85,7 @@ void printTable(const Scene& scene, const Plan& plan, const std::optional<Strips
     printText(fmt::format("bands      {}, {} to {} nm, {}\n", nm.size(), rounded(nm.front(), 9),
                           rounded(nm.back(), 9), name(plan.wavelengths.projection)));
     printText(fmt::format("triangles  {}\nlights     {}\nmaterials  {}\nterms      {}\n", plan.triangles(),
-                          plan.lights(), plan.world.materials.size(), plan.terms.count()));
+                          plan.lights(), materialsWorn(plan), plan.terms.count()));
     printText(fmt::format("features   {}\n", fmt::join(plan.features, ", ")));
     printText(fmt::format("defines    {}\n", fmt::join(plan.defines, " ")));
     printText(fmt::format("white      {} (X {}, Y {}, Z {})\n", plan.whiteName, rounded(plan.white[0], 5),

@@ -39,10 +39,10 @@ struct SweepArguments {
     bool json = false, quiet = false;
 };
 
-/// A detector of the sweep, and what its files are called.
+/// A detector of the sweep.
 struct Looker {
     std::unique_ptr<Observation> eye;
-    std::string name, file;
+    std::string name;
 };
 
 /// The pictures' channels wait in memory, as floats, until the last row is there: exposure needs all of them.
@@ -95,6 +95,10 @@ class Sweeping {
         requireMemory(plans_.front(), columnsOf(weights) * plans_.size());
         sweep_ = sweepPlan(std::move(plans_), names_, weights);
         addRegions(scene);
+        for (const std::string& variant : names_)
+            for (const Looker& looker : lookers_)
+                files_.push_back(variant + "-" + fileName(looker.name));
+        files_ = distinct(std::move(files_));
     }
 
     /// Renders once; returns the table.
@@ -150,7 +154,10 @@ class Sweeping {
                 console_.notes().say(withoutMarks(line));
             if (plans_.back().as != PassKind::radiance)
                 throw InputError("a sweep shows radiance; the pass asks for something else");
-            names_.push_back(variant.name.empty() ? "scene" : variant.name);
+            names_.push_back(variant.name);
+            if (variant.numbered)
+                console_.notes().say(fmt::format("variant '{}' is {} (its name was taken)", variant.name,
+                                                 fmt::join(variant.set, ", ")));
         }
     }
 
@@ -174,7 +181,7 @@ class Sweeping {
             if (observer.detector) observer.detector->name = name;
             try {
                 auto eye = std::make_unique<Observation>(observer, info, console_.notes());
-                lookers_.push_back({std::move(eye), name, fileName(name)});
+                lookers_.push_back({std::move(eye), name});
             } catch (const InputError& error) {
                 if (!own) throw;
                 throw InputError(asked->where, fmt::format("detector '{}': {}", name, error.what()));
@@ -242,7 +249,6 @@ class Sweeping {
     void finish(size_t variant, size_t looker, Json& rows) {
         const Observation& eye = *lookers_[looker].eye;
         const Detector& detector = eye.detector();
-        const std::string& file = lookers_[looker].file;
         ChannelImage channels(sweep_.plan.view.width, sweep_.plan.view.height, detector.size());
         for (size_t c = 0; c < detector.size(); ++c) {
             std::vector<float>& column = columns_[sweep_.column(variant, looker) + c];
@@ -250,7 +256,7 @@ class Sweeping {
             column = {};
         }
         const std::string base =
-            (std::filesystem::path(arguments_.output) / (names_[variant] + "-" + file)).string();
+            (std::filesystem::path(arguments_.output) / files_[variant * lookers_.size() + looker]).string();
         const ChannelImage xyz = eye.xyz(channels);
         const White chromaticity = eye.whiteUnder("first light", light_[variant]);
         if (arguments_.format == "exr") {
@@ -282,8 +288,8 @@ class Sweeping {
     Library library_;
     RenderSettings settings_;
     std::vector<Plan> plans_;
-    std::vector<Curve> light_;  ///< of each variant: its first light
-    std::vector<std::string> names_;
+    std::vector<Curve> light_;                ///< of each variant: its first light
+    std::vector<std::string> names_, files_;  ///< of variants; of pictures, each variant's detectors
     std::vector<Looker> lookers_;
     SweepPlan sweep_;
     std::vector<Region> wanted_;

@@ -6,6 +6,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 namespace spectrad {
 
@@ -50,6 +52,21 @@ std::string fileName(std::string text) {
     return text;
 }
 
+std::vector<std::string> distinct(std::vector<std::string> names) {
+    std::set<std::string> taken(names.begin(), names.end()), seen;
+    std::map<std::string, int> count;
+    for (std::string& name : names) {
+        int& number = count[name];
+        ++number;
+        if (seen.insert(name).second) continue;
+        std::string numbered = fmt::format("{}-{}", name, number);
+        while (!taken.insert(numbered).second)
+            numbered = fmt::format("{}-{}", name, ++number);
+        name = std::move(numbered);
+    }
+    return names;
+}
+
 std::vector<SweepVariant> variantsOf(const std::vector<SweepAxis>& axes) {
     constexpr size_t most = 10'000;
     std::vector<SweepVariant> variants(1);
@@ -68,6 +85,14 @@ std::vector<SweepVariant> variantsOf(const std::vector<SweepAxis>& axes) {
                 next.push_back(std::move(variant));
             }
         variants = std::move(next);
+    }
+    std::vector<std::string> plain;
+    for (const SweepVariant& variant : variants)
+        plain.push_back(variant.name.empty() ? "scene" : variant.name);
+    const std::vector<std::string> names = distinct(plain);
+    for (size_t i = 0; i < variants.size(); ++i) {
+        variants[i].name = names[i];
+        variants[i].numbered = names[i] != plain[i];
     }
     return variants;
 }

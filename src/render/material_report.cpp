@@ -195,14 +195,25 @@ MaterialReport report(const Scene& scene, const Material& material, const Wavele
     return result;
 }
 
+/// Whether a surface names no material, and so is of the built-in grey.
+bool wearsDefault(const Scene& scene) {
+    const auto isDefault = [](const auto& use) { return use.material == 0; };
+    return std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const Node& node) {
+        return std::any_of(node.shapes.begin(), node.shapes.end(), isDefault) ||
+               std::any_of(node.meshes.begin(), node.meshes.end(), isDefault);
+    });
+}
+
 }  // namespace
 
 std::vector<MaterialReport> reportMaterials(const Scene& scene, const Wavelengths& grid,
                                             const Library& library) {
     const std::vector<NamedLight> lights = lightsOf(scene, library);
     std::vector<MaterialReport> reports;
-    for (const Material& material : scene.materials)
+    for (const Material& material : scene.materials) {
+        if (&material == scene.materials.data() && !wearsDefault(scene)) continue;
         if (!lobesOf(material).empty()) reports.push_back(report(scene, material, grid, lights, library));
+    }
     return reports;
 }
 

@@ -49,7 +49,8 @@ struct MaterialReport {
     std::optional<FurnaceFigures> furnace;  ///< none for what a texture colours, and for what only glows
 };
 
-/// One for each material of the scene that has a lobe. `grid`: the bands of the image.
+/// One for each material of the scene that has a lobe; the built-in grey, without a name, where a surface
+/// wears it. `grid`: the bands of the image.
 [[nodiscard]] std::vector<MaterialReport> reportMaterials(const Scene& scene, const Wavelengths& grid,
                                                           const Library& library);
 

@@ -102,6 +102,30 @@ TEST_CASE("info on a scene reports its materials: fluorophores, matrices, Fresne
     CHECK_THAT(text, !Catch::Contains("material   wall"));
 }
 
+TEST_CASE("info counts the materials that surfaces wear: the built-in grey only where a surface names none") {
+    const Folder folder;
+    const auto of = [&](const std::string& shapes) {
+        folder.write("s.xml",
+                     R"(<scene version="1"><material name="a"><diffuse reflectance="constant:1"/></material>
+<material name="b"><diffuse reflectance="constant:0.5"/></material>)" +
+                         shapes + R"(<background spectrum="constant:1" scale="1"/>
+<light type="ambient" spectrum="constant:1" scale="1"/><camera size="16x16"/></scene>)");
+        CHECK_THAT(
+            run(folder, {"info", "s.xml"}).out,
+            Catch::Contains(
+                "materials  " +
+                std::to_string(run(folder, {"info", "s.xml", "--json"}).json().at("materials").get<int>()) +
+                "\n"));
+        return run(folder, {"info", "s.xml", "--json"}).json();
+    };
+    const json named = of(R"(<sphere material="a"/><sphere material="b"/>)");
+    CHECK(named.at("materials") == 2);
+    CHECK(named.at("material_reports").size() == 2);
+    const json unnamed = of(R"(<sphere material="a"/><sphere material="b"/><sphere/>)");
+    CHECK(unnamed.at("materials") == 3);
+    CHECK(unnamed.at("material_reports").size() == 3);
+}
+
 TEST_CASE("info on a scene is on the scene, with its own ENVI image beside it") {
     const Folder folder;
     folder.write("s.xml", R"(<scene version="1"><sphere/>

@@ -76,6 +76,31 @@ TEST_CASE("A sweep measures what separate renders measure, for every light, mate
     CHECK(lines == 17);
 }
 
+TEST_CASE("Variants of a sweep that would be called the same are told apart, and none overwrites another") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    folder.write("s.xml", scene);
+    folder.write("p q.csv", "wavelength,value\n400,0.2\n700,0.2\n");
+    folder.write("p_q.csv", "wavelength,value\n400,0.8\n700,0.8\n");
+    folder.write("p_q.csv-2", "wavelength,value\n400,0.4\n700,0.4\n");
+    const Outcome swept =
+        run(folder, {"sweep", "s.xml", "-o", "out", "--samples", "1", "--size", "32x16", "--vary",
+                     "ink.diffuse.reflectance=p q.csv|p_q.csv|p_q.csv-2|p_q.csv", "--observer", "cie1931-2",
+                     "--observer", "cie1931-2", "--region", "left=9,8,1,1", "--json"});
+    INFO(swept.err);
+    REQUIRE(swept.code == 0);
+    CHECK_THAT(swept.err, Catch::Contains("variant 'p_q.csv-3' is ink.diffuse.reflectance=p_q.csv"));
+    std::map<std::string, double> luminance;
+    for (const json& row : swept.json().at("regions"))
+        luminance[row.at("variant")] = row.at("XYZ")[1];
+    REQUIRE(luminance.size() == 4);
+    CHECK(luminance.at("p_q.csv-3") == Approx(4 * luminance.at("p_q.csv")).epsilon(1e-5));
+    CHECK(luminance.at("p_q.csv-2") == Approx(2 * luminance.at("p_q.csv")).epsilon(1e-5));
+    CHECK(luminance.at("p_q.csv-4") == luminance.at("p_q.csv-3"));
+    CHECK(std::distance(std::filesystem::directory_iterator(folder / "out"),
+                        std::filesystem::directory_iterator{}) == 4 * 2 + 2);
+}
+
 TEST_CASE("A sweep refuses what changes more than spectra, and says what it wants") {
     if (!cli::haveDevice()) return;
     const Folder folder;
