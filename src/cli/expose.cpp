@@ -118,6 +118,8 @@ ExitCode exposeCube(const ExposeArguments& arguments) {
 
     Console console(arguments.quiet);
     const Cube cube = readCube(arguments.cube, console.notes());
+    if (arguments.picture.empty() && !arguments.observer.white.empty() && !needsLight(cube.info.kind))
+        throw UsageError("--white: of a radiance only --picture has a white");
     const Observation observation(arguments.observer, cube.info, console.notes());
     const Detector& detector = observation.detector();
     std::optional<Mosaic> mosaic;
@@ -212,6 +214,8 @@ void addExpose(CLI::App& app, Action& action) {
         ->type_name("NAME|FILE");
     command->add_option("--display", arguments->display, "of the picture; default: srgb")
         ->type_name("srgb|p3|rec2020|FILE");
+    for (const char* option : {"--chart", "--display"})
+        command->get_option(option)->needs("--picture");
     command->add_flag("--json", arguments->json, "print a JSON object about what was written");
     command->add_flag("-q,--quiet", arguments->quiet, "no remarks on standard error");
     command->footer(

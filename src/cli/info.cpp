@@ -48,10 +48,19 @@ Kind kindOf(const std::string& text) {
     return fs::is_directory(text, ignored) ? Kind::scene : Kind::spectrum;
 }
 
+/// Options that choose a scene's picture say nothing of cubes, spectra and lists.
+void requireNoneOfScenes(const InfoArguments& arguments, const std::string& about) {
+    const std::string given = recorded(arguments.scene) + (arguments.scene.restricted ? " --restrict" : "");
+    if (!given.empty()) throw UsageError("info" + given + ": that is for scenes, and " + about);
+}
+
 ExitCode inform(const InfoArguments& arguments) {
     Console console(arguments.quiet);
     const std::string& what = arguments.scene.file;
     if (arguments.list) {
+        if (arguments.cost || !arguments.reradiation.empty() || !arguments.output.empty())
+            throw UsageError("--list goes with neither --cost nor --reradiation");
+        requireNoneOfScenes(arguments, "--list is of the library");
         printLibrary(Library::open(), what, arguments.json);
         return ExitCode::ok;
     }
@@ -63,9 +72,11 @@ ExitCode inform(const InfoArguments& arguments) {
             throw UsageError("--reradiation MATERIAL and -o FILE belong together");
         if (kindOf(what) != Kind::scene)
             throw UsageError("--reradiation is for scenes, and '" + what + "' is none");
+        if (arguments.cost) throw UsageError("--cost and --reradiation do not go together");
         writeReradiation(arguments.scene, arguments.reradiation, arguments.output, arguments.json, console);
         return ExitCode::ok;
     }
+    if (kindOf(what) != Kind::scene) requireNoneOfScenes(arguments, "'" + what + "' is none");
     switch (kindOf(what)) {
         case Kind::scene:
             if (arguments.cost)

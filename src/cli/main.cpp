@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
 
 namespace spectrad {
@@ -56,11 +57,13 @@ std::vector<std::string> commandNames(const CLI::App& app) {
 
 /// What is wrong with the command line, in our words where CLI11's are not plain.
 std::string complaint(const CLI::App& app, const CLI::App& command, const CLI::ParseError& error) {
-    const std::vector<std::string> left = command.remaining();
-    for (const std::string& word : left)
+    std::vector<std::string> left = command.remaining();
+    const auto endOfOptions = std::find(left.begin(), left.end(), "--");
+    for (const std::string& word : std::vector<std::string>(left.begin(), endOfOptions))
         if (word.size() > 1 && word[0] == '-')
             return "unknown option '" + word + "'" +
                    didYouMean(word.substr(0, word.find('=')), optionNames(command));
+    if (endOfOptions != left.end()) left.erase(endOfOptions);
     if (!left.empty())
         return &command == &app ? "unknown command '" + left[0] + "'" + didYouMean(left[0], commandNames(app))
                                 : "unexpected argument '" + left[0] + "'";
@@ -75,7 +78,8 @@ std::string complaint(const CLI::App& app, const CLI::App& command, const CLI::P
     return message;
 }
 
-ExitCode runProgram(const std::vector<std::string>& arguments) {
+ExitCode runProgram(std::vector<std::string> arguments) {
+    if (!arguments.empty() && arguments.front() == "--") arguments.erase(arguments.begin());
     CLI::App app(description, "spectrad");
     app.formatter(std::make_shared<HelpFormatter>());
     app.footer(footer);

@@ -64,10 +64,12 @@ MetamerSettings settingsOf(const MetamerArguments& arguments) {
     settings.nm = asUsage("--wavelengths", [&] { return parseWavelengths(arguments.wavelengths, {}).nm; });
     const std::vector<std::string_view> ends = split(arguments.bounds, ':');
     if (ends.size() != 2) throw UsageError("--bounds: '" + arguments.bounds + "' is not LOW:HIGH");
-    settings.low = parseNumber("--bounds", std::string(ends[0]), 0, 1);
-    settings.high = parseNumber("--bounds", std::string(ends[1]), settings.low, 1);
+    settings.low = parseNumber("--bounds", ends[0], 0, 1);
+    settings.high = parseNumber("--bounds", ends[1], 0, 1);
+    if (settings.low >= settings.high)
+        throw UsageError("--bounds: '" + arguments.bounds + "' is not LOW:HIGH, LOW below HIGH");
     settings.smoothness = parseNumber("--smoothness", arguments.smoothness, 1e-6, 1e6);
-    settings.count = static_cast<int>(parseNumber("--count", arguments.count, 1, 1000));
+    settings.count = parseCount("--count", arguments.count, 1, 1000);
     if (settings.nm.size() < 4)
         throw UsageError("--wavelengths: a smooth reflectance wants four of them at least");
     return settings;
@@ -203,8 +205,8 @@ void addMetamer(CLI::App& app, Action& action) {
     auto arguments = std::make_shared<MetamerArguments>();
     command->add_option("REFLECTANCE", arguments->reflectance, "a reflectance: name, file or formula")
         ->required();
-    command->add_option("OTHER", arguments->other,
-                        "another: print metamerism indices of the two instead of making any");
+    CLI::Option* other = command->add_option(
+        "OTHER", arguments->other, "another: print metamerism indices of the two instead of making any");
     command
         ->add_option(
             "--match", arguments->match,
@@ -232,6 +234,9 @@ void addMetamer(CLI::App& app, Action& action) {
         ->add_option("-o,--output", arguments->output,
                      "write original and metamers as a table that scenes read")
         ->type_name("OUT.csv");
+    // What says how to make metamers says nothing of a pair.
+    for (const char* option : {"--count", "--smoothness", "--bounds", "--wavelengths", "-o"})
+        command->get_option(option)->excludes(other);
     command->add_flag("--json", arguments->json, "print a JSON object");
     command->add_flag("-q,--quiet", arguments->quiet, "no remarks on standard error");
     command->footer(

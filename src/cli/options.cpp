@@ -26,11 +26,22 @@ Only parseOnly(const std::string& text) {
 
 }  // namespace
 
+namespace {
+
+/// "a number from 0 to 1", "a number from 0 on": a side at the type's largest value is none.
+template <class Number>
+std::string wanted(const char* what, Number least, Number most) {
+    constexpr Number largest = std::numeric_limits<Number>::max();
+    const std::string from = least <= -largest ? "" : fmt::format(" from {}", least);
+    return what + from + (most < largest ? fmt::format(" to {}", most) : from.empty() ? "" : " on");
+}
+
+}  // namespace
+
 double parseNumber(const std::string& option, std::string_view text, double least, double most) {
     const std::optional<double> value = parseDouble(text);
     if (!value || *value < least || *value > most)
-        throw UsageError(fmt::format("{}: '{}' is not a number from {} to {}", option, text, shortest(least),
-                                     shortest(most)));
+        throw UsageError(fmt::format("{}: '{}' is not {}", option, text, wanted("a number", least, most)));
     return *value;
 }
 
@@ -38,7 +49,7 @@ int parseCount(const std::string& option, std::string_view text, int least, int 
     const std::optional<long long> value = parseInteger(text);
     if (!value || *value < least || *value > most)
         throw UsageError(
-            fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, least, most));
+            fmt::format("{}: '{}' is not {}", option, text, wanted("a whole number", least, most)));
     return static_cast<int>(*value);
 }
 

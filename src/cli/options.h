@@ -29,9 +29,10 @@ auto asUsage(const std::string& option, Parse parse) {
     }
 }
 
-/// A finite number within [least, most].
+/// A finite number within [least, most]; where `most` is the type's largest value, there is no such limit,
+/// and the message names none.
 [[nodiscard]] double parseNumber(const std::string& option, std::string_view text, double least, double most);
-/// A whole number within [least, most].
+/// A whole number within [least, most], likewise.
 [[nodiscard]] int parseCount(const std::string& option, std::string_view text, int least, int most);
 /// "1280x720": both sides 1…65536.
 [[nodiscard]] std::pair<int, int> parseSize(const std::string& option, std::string_view text);

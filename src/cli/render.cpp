@@ -234,6 +234,17 @@ void checkSaves(const std::vector<GraphNode>& graph, const Output& output) {
         }
 }
 
+/// Whether double precision judges the image: then what says how is read before hours of rendering.
+bool isJudged(const RenderArguments& arguments) {
+    const bool judged = !arguments.verify.share.empty() || !arguments.tolerance.empty();
+    if (!judged) return false;
+    if (!arguments.verify.share.empty()) (void)parseShare("--verify", arguments.verify.share);
+    if (!arguments.tolerance.empty())
+        (void)asUsage("--tolerance", [&] { return parseTolerance(arguments.tolerance); });
+    (void)parseSeed(arguments.verify.seed);
+    return true;
+}
+
 /// Settings for --tolerance; changes what is asked for to what was chosen.
 Chosen chooseSettings(const RenderArguments& arguments, Scene& scene, RenderSettings& settings,
                       Output& output, const Library& library, const Device& device) {
@@ -264,6 +275,7 @@ ExitCode render(const RenderArguments& arguments) {
     Console console(arguments.quiet);
     RenderSettings settings = renderSettings(arguments.scene);
     const std::optional<int> number = deviceNumber(arguments.scene.device);
+    const bool isToBeJudged = isJudged(arguments);
     Output output = outputOf(arguments);
     // A device that is asked for is missed at once; that there is none at all, only when the scene is known
     // to be sound.
@@ -271,6 +283,7 @@ ExitCode render(const RenderArguments& arguments) {
     if (number) device = Device::open(number);
 
     const Library library = Library::open();
+    if (isToBeJudged) (void)observerOf(arguments.verify, library);
     const Scene asked =
         loadScene(arguments.scene.file, library, loadOptions(arguments.scene), console.notes());
     Scene scene = asked;
@@ -294,7 +307,7 @@ ExitCode render(const RenderArguments& arguments) {
     seconds.plan = clock.lap();
     CubeInfo info = cubeInfo(arguments, scene, plan, *device);
     std::optional<VerifiedImage> judged;
-    if (!arguments.verify.share.empty() || chosen) {
+    if (isToBeJudged) {
         VerifyArguments how = arguments.verify;
         if (how.share.empty()) how.share = "1%";
         judged = verified(how, asked, settings, plan, info, output.options.half, library, *device,
@@ -417,7 +430,13 @@ void addRender(CLI::App& app, Action& action) {
         "  spectrad render scene.xml -o warm.exr --set lamp.spectrum=illuminants/A\n"
         "  spectrad render scene.xml --wavelengths 400:700:10 --size 1920x1080 --samples 32 --json\n"
         "  spectrad render scene.xml -o scene.img --projection point");
-    command->final_callback([&action, arguments] { action = [arguments] { return render(*arguments); }; });
+    command->final_callback([&action, arguments, command] {
+        const bool judged = !arguments->verify.share.empty() || !arguments->tolerance.empty();
+        for (const char* option : {"--seed", "--observer"})
+            if (!judged && command->count(option) > 0)
+                throw UsageError(std::string(option) + " needs --verify or --tolerance");
+        action = [arguments] { return render(*arguments); };
+    });
 }
 
 }  // namespace spectrad

@@ -91,7 +91,8 @@ TEST_CASE("Variants of a sweep that would be called the same are told apart, and
     REQUIRE(swept.code == 0);
     CHECK_THAT(swept.err, Catch::Contains("variant 'p_q.csv-3' is ink.diffuse.reflectance=p_q.csv"));
     std::map<std::string, double> luminance;
-    for (const json& row : swept.json().at("regions"))
+    const json rows = swept.json().at("regions");
+    for (const json& row : rows)
         luminance[row.at("variant")] = row.at("XYZ")[1];
     REQUIRE(luminance.size() == 4);
     CHECK(luminance.at("p_q.csv-3") == Approx(4 * luminance.at("p_q.csv")).epsilon(1e-5));

@@ -103,6 +103,62 @@ TEST_CASE("values of options that cannot be are wrong usage, and name the option
     CHECK(folder.names().empty());
 }
 
+TEST_CASE("an option that would not be read is wrong usage") {
+    const Folder folder;
+    const std::vector<std::vector<std::string>> unread{
+        {"render", "x.xml", "--seed", "2"},
+        {"render", "x.xml", "--observer", "cie1964-10"},
+        {"metamer", "constant:0.3", "constant:0.2", "--count", "3"},
+        {"metamer", "constant:0.3", "constant:0.2", "--output", "m.csv"},
+        {"expose", "x.exr", "-o", "y.exr", "--chart", "charts/colorchecker"},
+        {"info", "illuminants/A", "--size", "3x3"},
+        {"info", "--list", "--restrict"}};
+    for (const auto& arguments : unread) {
+        INFO(arguments.back());
+        const bool flag = arguments.back().starts_with("--");
+        requireError(run(folder, arguments), 2, flag ? arguments.back() : arguments[arguments.size() - 2]);
+    }
+    CHECK(folder.names().empty());
+}
+
+TEST_CASE("what --verify and --tolerance take is read before the scene is") {
+    const Folder folder;
+    const auto wrong = [&](const std::vector<std::string>& options, const std::string& mention) {
+        std::vector<std::string> all{"render", "nosuch.xml"};
+        all.insert(all.end(), options.begin(), options.end());
+        requireError(run(folder, all), 2, mention);
+    };
+    wrong({"--verify", "--seed", "banana"}, "--seed: 'banana' is not a whole number from 0 on");
+    wrong({"--verify=200%"}, "--verify");
+    wrong({"--tolerance", "x"}, "--tolerance");
+    wrong({"--tolerance", "1", "--observer", "nosuch"}, "--observer");
+}
+
+TEST_CASE("a limit that is none is not in the message") {
+    const Folder folder;
+    requireError(run(folder, {"compare", "a.exr", "b.exr", "--max-deltae", "x"}), 2,
+                 "'x' is not a number from 0 on\n");
+    requireError(run(folder, {"view", "x.xml", "--frames", "x"}), 2, "'x' is not a whole number from 0 on\n");
+    requireError(run(folder, {"render", "x.xml", "--samples", "x"}), 2, "a whole number from 1 to 64\n");
+    requireError(run(folder, {"metamer", "constant:0.3", "--bounds", "1:0"}), 2, "LOW below HIGH\n");
+}
+
+TEST_CASE("-- ends the options: what follows is a name, whatever it begins with") {
+    const Folder folder;
+    folder.write("-x.csv", "400,0.1\n500,0.2\n");
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"info", "--json", "--", "-x.csv"},
+          {"--", "info", "--json", "--", "-x.csv"}}) {
+        const Outcome outcome = run(folder, arguments);
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        CHECK(outcome.json().at("text") == "-x.csv");
+    }
+    requireError(run(folder, {"info", "--", "-x.csv", "--json"}), 2, "unexpected argument '--json'");
+    requireError(run(folder, {"info", "--jsn", "--", "-x.csv"}), 2, "did you mean '--json'?");
+    requireError(run(folder, {"render", "--"}), 2, "SCENE is required");
+}
+
 TEST_CASE("a file that is not there is an error in the input that names it") {
     const Folder folder;
     requireError(run(folder, {"render", "nosuch.xml"}), 1, "nosuch.xml");
