@@ -17,7 +17,7 @@ void setObserver(Look& look, const std::string& name, const SpectrumResolver& re
         return;
     }
     std::optional<Detector> detector = sceneDetector(name, resolver, library);
-    if (!detector) detector = detectorFor(name, resolver, {});
+    if (!detector) detector = detectorOrFilmMeant(name, resolver, library);
     const XyzMatrix matrix = towardsXyz(*detector, standard);
     look.eye = std::make_shared<const Eye>(Eye{std::move(*detector), matrix});
     look.film.reset();
@@ -31,12 +31,8 @@ std::vector<std::string> observerNames(const Library& library, const Scene* scen
                 names.push_back(file.filename().string() + "#" + use.name);
     for (const LibraryEntry& entry : library.list())
         if (entry.quantity == Quantity::sensitivity) names.push_back(entry.name);
-    std::vector<std::string> films;
-    std::error_code none;
-    for (const auto& file : std::filesystem::directory_iterator(library.folder() / "films", none))
-        if (file.path().extension() == ".film") films.push_back(file.path().stem().string());
-    std::sort(films.begin(), films.end());
-    names.insert(names.end(), films.begin(), films.end());
+    for (const std::string& film : filmNames(library))
+        names.push_back(film.substr(film.find('/') + 1));
     return names;
 }
 

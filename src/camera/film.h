@@ -38,6 +38,12 @@ struct Film {
                              const SpectrumResolver& resolver);
 /// Whether an observer's name means a film: it ends in ".film", or the library has NAME.film.
 [[nodiscard]] bool isFilm(const std::string& name, const Library& library);
+/// The library's films, "films/generic-reversal", sorted.
+[[nodiscard]] std::vector<std::string> filmNames(const Library& library);
+/// detectorFor(), for a name that might have been a film's: where there is nothing of that name but a film is
+/// called nearly so, the InputError says which.
+[[nodiscard]] Detector detectorOrFilmMeant(const std::string& name, const SpectrumResolver& resolver,
+                                           const Library& library);
 /// The film of the library, or in a file. Throws InputError.
 [[nodiscard]] Film filmFor(const std::string& name, const SpectrumResolver& resolver, const Library& library);
 

@@ -118,6 +118,29 @@ bool isFilm(const std::string& name, const Library& library) {
     return name.ends_with(".film") || (!name.empty() && !libraryFile(name, library).empty());
 }
 
+std::vector<std::string> filmNames(const Library& library) {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (const auto& file : std::filesystem::directory_iterator(library.folder() / "films", none))
+        if (file.path().extension() == ".film") names.push_back("films/" + file.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+Detector detectorOrFilmMeant(const std::string& name, const SpectrumResolver& resolver,
+                             const Library& library) {
+    try {
+        return detectorFor(name, resolver, {});
+    } catch (const InputError& error) {
+        std::vector<std::string> films = filmNames(library);
+        for (size_t i = films.size(); i-- > 0;)
+            films.push_back(films[i].substr(films[i].find('/') + 1));
+        const std::string hint = didYouMean(name, films);
+        if (hint.empty() || !startsWith(error.what(), "unknown observer")) throw;
+        throw InputError("unknown observer '" + name + "'" + hint);
+    }
+}
+
 Film filmFor(const std::string& name, const SpectrumResolver& resolver, const Library& library) {
     const std::filesystem::path shipped = libraryFile(name, library);
     const std::filesystem::path path = shipped.empty() ? resolver.findFile(name, {}) : shipped;

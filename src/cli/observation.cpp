@@ -78,7 +78,7 @@ Detector Observation::wantedDetector(const ObserverArguments& arguments) {
         return film_->film().layers;
     }
     if (std::optional<Detector> detector = sceneDetector(observer, resolver_, library_)) return *detector;
-    return detectorFor(observer, resolver_, {});
+    return detectorOrFilmMeant(observer, resolver_, library_);
 }
 
 Observation::Observation(const ObserverArguments& arguments, const CubeInfo& info, Notes& notes)

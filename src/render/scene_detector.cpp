@@ -26,9 +26,10 @@ std::optional<Detector> sceneDetector(const std::string& observer, const Spectru
         }
         known.push_back(use.name);
     }
-    throw InputError(SourceLocation{file},
-                     fmt::format("has no <detector name=\"{}\">{} (there are: {})", name,
-                                 didYouMean(name, known), fmt::join(known, ", ")));
+    throw InputError(
+        SourceLocation{file},
+        fmt::format("has no <detector name=\"{}\">{} (there are: {})", name, didYouMean(name, known),
+                    known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
 }
 
 }  // namespace spectrad

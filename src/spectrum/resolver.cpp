@@ -50,6 +50,9 @@ bool looksLikeFile(std::string_view text) {
            std::isalpha(static_cast<unsigned char>(extension[1]));
 }
 
+/// Of the library; a detector's name does without them.
+constexpr std::array<std::string_view, 2> detectorFolders{"observers/", "cameras/"};
+
 bool looksLikePairs(std::string_view text) {
     const auto first = words(text);
     if (first.empty()) return false;
@@ -148,7 +151,7 @@ Spectrum SpectrumResolver::definition(std::string_view name, Role role, const So
 std::optional<Spectrum> SpectrumResolver::fromLibrary(std::string_view text, Role role) const {
     if (auto found = library_.find(text)) return found;
     if (role != Role::detector || text.find('/') != std::string_view::npos) return std::nullopt;
-    for (std::string_view folder : {"observers/", "cameras/"})
+    for (std::string_view folder : detectorFolders)
         if (auto found = library_.find(std::string(folder) + std::string(text))) return found;
     return std::nullopt;
 }
@@ -179,7 +182,7 @@ Spectrum SpectrumResolver::resolve(std::string_view text, Role role, const Sourc
     text = trimmed(text);
     if (text.empty()) throw InputError(where, "a spectrum without a name or value");
     const std::vector<Reading> found = readings(text, role, where);
-    if (found.empty()) refuse(text, where);
+    if (found.empty()) refuse(text, role, where);
     if (found.size() > 1)
         notes_.warn(where, fmt::format("'{}' could mean {} or {}; the first is taken", text, found[0].what,
                                        found[1].what));
@@ -212,7 +215,7 @@ std::vector<std::pair<std::string, SourceLocation>> SpectrumResolver::unused() c
 }
 
 /// Says what the text might have been meant for.
-void SpectrumResolver::refuse(std::string_view text, const SourceLocation& where) const {
+void SpectrumResolver::refuse(std::string_view text, Role role, const SourceLocation& where) const {
     if (looksLikeFile(text) && text.find(':') == std::string_view::npos) {
         const auto splits = splitsOf(text);
         (void)findFile(splits[splits.size() > 1 ? 1 : 0].first,
@@ -238,10 +241,16 @@ void SpectrumResolver::refuse(std::string_view text, const SourceLocation& where
             hint = fmt::format(" (did you mean '{}'?)", name);
     for (const auto& [name, definition] : definitions_)
         known.push_back(name);
+    // A sensor's curve is a spectrum; who looks is an observer, whose folder need not be said.
+    const bool observer = role == Role::detector && text.find('/') == std::string_view::npos;
+    if (observer)
+        for (const std::string_view folder : detectorFolders)
+            for (const std::string& name : library_.names())
+                if (name.starts_with(folder)) known.push_back(name.substr(folder.size()));
     if (hint.empty()) hint = didYouMean(text, known);
-    throw InputError(where, fmt::format("unknown spectrum '{}'{}: neither the scene nor the library has it, "
+    throw InputError(where, fmt::format("unknown {} '{}'{}: neither the scene nor the library has it, "
                                         "nor is it a file beside the scene",
-                                        text, hint));
+                                        observer ? "observer" : "spectrum", text, hint));
 }
 
 }  // namespace spectrad

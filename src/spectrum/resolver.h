@@ -83,7 +83,7 @@ class SpectrumResolver {
     [[nodiscard]] std::optional<FileUse> fileUse(std::string_view text) const;
     [[nodiscard]] Spectrum fromFile(const FileUse& use, Role role, const SourceLocation& where) const;
     [[nodiscard]] Spectrum fromFormula(std::string_view text, Role role, const SourceLocation& where) const;
-    [[noreturn]] void refuse(std::string_view text, const SourceLocation& where) const;
+    [[noreturn]] void refuse(std::string_view text, Role role, const SourceLocation& where) const;
     [[nodiscard]] bool isOfLibrary(const Spectrum& spectrum) const;
 
     const Library& library_;

@@ -134,6 +134,18 @@ TEST_CASE("what --verify and --tolerance take is read before the scene is") {
     wrong({"--tolerance", "1", "--observer", "nosuch"}, "--observer");
 }
 
+TEST_CASE("an observer that is not there is called one, with the nearest that is, films too") {
+    const Folder folder;
+    cli::writeCube(folder / "c.exr", 2, 2, "400:700:50", [](int, int, double) { return 1.0; });
+    const auto refused = [&](const std::string& observer, const std::string& mention) {
+        requireError(run(folder, {"measure", "c.exr", "--at", "0,0", "--observer", observer}), 1, mention);
+    };
+    refused("cie1931", "unknown observer 'cie1931' (did you mean 'cie1931-2'?)");
+    refused("generic-reversl", "unknown observer 'generic-reversl' (did you mean 'generic-reversal'?)");
+    folder.write("x.xml", R"(<scene><sphere/><camera/></scene>)");
+    refused("x.xml#cm", "(there are: none)");
+}
+
 TEST_CASE("a limit that is none is not in the message") {
     const Folder folder;
     requireError(run(folder, {"compare", "a.exr", "b.exr", "--max-deltae", "x"}), 2,

@@ -184,6 +184,11 @@ TEST_CASE("An unknown name is refused with the nearest known one") {
                                                    "line, srgb, rgb, sellmeier, cauchy, or pairs nm:value)");
     CHECK_THROWS_WITH(f.get("0.18", Role::reflectance),
                       head + "unknown spectrum '0.18' (for one value at all wavelengths: constant:0.18)");
+    CHECK_THROWS_WITH(f.get("cie1931", Role::detector),
+                      head + "unknown observer 'cie1931' (did you mean 'cie1931-2'?)" + end);
+    CHECK_THROWS_WITH(f.get("nikon5100", Role::detector), Catch::Contains("did you mean 'nikon-5100'?"));
+    CHECK_THROWS_WITH(f.get("sensors/cdd", Role::detector),
+                      Catch::Contains("unknown spectrum 'sensors/cdd' (did you mean 'sensors/ccd'?)"));
     CHECK_THROWS_WITH(f.get("  "), head + "a spectrum without a name or value");
 }
 
