@@ -240,7 +240,7 @@ std::vector<Action> parseScript(std::string_view text, const std::string& file) 
             line.refuse(fmt::format("'{}' is no action (allowed: {}){}", line.words[0],
                                     fmt::join(names, ", "), didYouMean(line.words[0], names)));
         Action action;
-        action.line = number;
+        action.where = line.where;
         (*reader)(line, action);
         actions.push_back(std::move(action));
     }

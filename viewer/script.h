@@ -2,6 +2,7 @@
 // test wants.
 #pragma once
 
+#include "base/error.h"
 #include "viewer/face.h"
 
 #include <string>
@@ -31,7 +32,7 @@ struct Action {
     std::vector<Event> events;
     std::string text;
     double x = 0, y = 0;
-    int line = 0;  ///< in the script, from 1
+    SourceLocation where{};  ///< in the script
 };
 
 /// Throws InputError `file:line:1: …` for what is no action.

@@ -135,7 +135,13 @@ void Viewer::play(const Action& action) {
 void run(Viewer& viewer, const std::vector<Action>& actions, std::optional<int> frames) {
     for (const Action& action : actions) {
         if (viewer.closed()) return;
-        viewer.play(action);
+        try {
+            viewer.play(action);
+        } catch (const MachineError&) {
+            throw;
+        } catch (const Error& error) {
+            throw InputError(action.where, error.what());
+        }
     }
     constexpr double patience = 0.1;  // s: how often an idle window looks whether files have changed
     for (int i = 0; (!frames || i < *frames) && !viewer.closed(); ++i)

@@ -114,6 +114,8 @@ TEST_CASE("films, detectors of scenes and whites of the image: view shows what o
     };
     refused("set white=at:500,3\n", "outside");
     refused("set observer=rig.xml#right\n", "left");
+    refused("wait 1\nset nolight.spectrum=illuminants/A\n", "wrong.txt:2:1: the scene has no light");
+    refused("set exposure=much\n", "wrong.txt:1:1: exposure: 'much'");
 }
 
 TEST_CASE("what view saves is what it showed: picture, scene, cube") {
