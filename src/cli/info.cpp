@@ -1,6 +1,7 @@
 // spectrad info: what a scene needs, what a cube holds, what a spectrum is, or what the library has.
 #include "cli/info.h"
 
+#include "camera/film.h"
 #include "cli/commands.h"
 #include "image/cube.h"
 #include "spectrum/library.h"
@@ -23,7 +24,7 @@ struct InfoArguments {
     bool list = false, cost = false, json = false, quiet = false;
 };
 
-enum class Kind { scene, cube, spectrum };
+enum class Kind { scene, cube, spectrum, film };
 
 /// Files that hold curves; any other file that is no cube is read as a scene or a model.
 constexpr std::array<std::string_view, 8> spectrumExtensions{".csv", ".tsv", ".txt",   ".spd",
@@ -40,6 +41,7 @@ Kind kindOf(const std::string& text) {
     std::error_code ignored;
     // A scene's name is enough: with scene.img and scene.hdr beside it, it would look like their cube.
     if (extension == ".xml") return Kind::scene;
+    if (isFilm(text, Library::open())) return Kind::film;
     if (fs::is_regular_file(text, ignored)) {
         if (looksLikeCube(text)) return Kind::cube;
         return contains(spectrumExtensions, extension) ? Kind::spectrum : Kind::scene;
@@ -64,7 +66,7 @@ ExitCode inform(const InfoArguments& arguments) {
         printLibrary(Library::open(), what, arguments.json);
         return ExitCode::ok;
     }
-    if (what.empty()) throw UsageError("info needs a SCENE, a CUBE or a SPECTRUM, or --list");
+    if (what.empty()) throw UsageError("info needs a SCENE, a CUBE, a SPECTRUM or a FILM, or --list");
     if (arguments.cost && kindOf(what) != Kind::scene)
         throw UsageError("--cost is for scenes, and '" + what + "' is none");
     if (!arguments.reradiation.empty() || !arguments.output.empty()) {
@@ -90,6 +92,9 @@ ExitCode inform(const InfoArguments& arguments) {
         case Kind::spectrum:
             printSpectrumInfo(what, Library::open(), arguments.json, console);
             break;
+        case Kind::film:
+            printFilmInfo(what, Library::open(), arguments.json, console);
+            break;
     }
     return ExitCode::ok;
 }
@@ -104,10 +109,11 @@ void addInfo(CLI::App& app, Action& action) {
         ->add_option(
             "WHAT", arguments->scene.file,
             "a scene or model file; a spectral image (EXR or ENVI); a spectrum as scenes write it, such as "
-            "illuminants/D65, lamp.csv#3 or blackbody:2856; with --list a prefix of names")
-        ->type_name("SCENE|CUBE|SPECTRUM");
+            "illuminants/D65, lamp.csv#3 or blackbody:2856; a film (generic-reversal, or x.film); with "
+            "--list a prefix of names")
+        ->type_name("SCENE|CUBE|SPECTRUM|FILM");
     command->add_flag("--list", arguments->list,
-                      "list the library's spectra, with WHAT only those whose names start so");
+                      "list the library's spectra and films, with WHAT only those whose names start so");
     command->add_flag("--cost", arguments->cost,
                       "of a scene: render it without each of its features in turn, and print what each costs "
                       "in time and memory and changes in CIEDE2000");
@@ -134,7 +140,9 @@ void addInfo(CLI::App& app, Action& action) {
         "reflectance 0 to 1). Of a spectrum: quantity, unit, range in nm, integral (unit x nm); of a light "
         "its chromaticity, CCT in K and Duv (CIE 1931); of a "
         "reflectance its "
-        "XYZ and CIELAB under D65 (white Y = 100); and a plot.\n\n"
+        "XYZ and CIELAB under D65 (white Y = 100); and a plot. Of a film: its projector, the densities of "
+        "its "
+        "layers, plots of layers and dyes.\n\n"
         "Examples:\n"
         "  spectrad info scene.xml\n"
         "  spectrad info scene.exr --json\n"

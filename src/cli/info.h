@@ -19,7 +19,9 @@ void writeReradiation(const SceneArguments& arguments, const std::string& materi
                       bool json, Console& console);
 void printCubeInfo(const std::string& file, bool json, Console& console);
 void printSpectrumInfo(const std::string& text, const Library& library, bool json, Console& console);
-/// The library's entries whose names start with `prefix`.
+/// A film of the library, or in a file x.film.
+void printFilmInfo(const std::string& name, const Library& library, bool json, Console& console);
+/// The library's entries, films among them, whose names start with `prefix`.
 void printLibrary(const Library& library, const std::string& prefix, bool json);
 
 /// The curve as columns of block characters between two wavelengths, with its axes.

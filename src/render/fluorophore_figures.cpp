@@ -52,7 +52,7 @@ FluorophoreFigures FluorescentBase::figuresOf(const Separable& part) const {
     FluorophoreFigures figures;
     figures.excitationPeak = peakOf(part.excitation);
     figures.emissionPeak = peakOf(part.emission);
-    figures.yield = part.yield;
+    figures.yield = part.yield * part.strength;  // the rest is the base's, as in a measured matrix
     const auto range = part.emission.range();
     if (figures.excitationPeak && range && !part.antiStokes) {
         // Of the emission only what lies above the excitation leaves.

@@ -1,6 +1,7 @@
 // info on spectra and the library.
 #include "cli/support.h"
 
+#include <algorithm>
 #include <map>
 
 using cli::Folder;
@@ -60,6 +61,25 @@ TEST_CASE("info lists the library, whole or below a prefix") {
     CHECK(d65);
     CHECK_THAT(run(folder, {"info", "--list", "illuminants"}).out, Catch::Contains("illuminants/FL11"));
     requireError(run(folder, {"info", "--list", "nosuch"}), 1, "nosuch");
+}
+
+TEST_CASE("films are in the library's list, and info tells what they are made of") {
+    const Folder folder;
+    const json films = run(folder, {"info", "--list", "films/", "--json"}).json();
+    const auto listed = std::find_if(films.begin(), films.end(), [](const json& entry) {
+        return entry.at("name") == "films/generic-reversal";
+    });
+    REQUIRE(listed != films.end());
+    CHECK(listed->at("quantity") == "film");
+    CHECK_THAT(run(folder, {"info", "--list", "films/"}).out, Catch::Contains("reversal film\n"));
+    for (const char* name : {"films/generic-reversal", "generic-reversal"}) {
+        const json film = run(folder, {"info", name, "--json"}).json();
+        CHECK(film.at("projector") == "illuminants/A");
+        CHECK(film.at("curves").at("green").at("dmax") == 3.5);
+        CHECK_THAT(run(folder, {"info", name}).out,
+                   Catch::Contains("layer G: ") && Catch::Contains("density of magenta: "));
+    }
+    requireError(run(folder, {"info", "nosuch.film"}), 1, "nosuch.film");
 }
 
 TEST_CASE("info on what does not exist says so") {

@@ -60,6 +60,16 @@ TEST_CASE("a dye's peaks, Stokes shift, yield and total radiance factor are thos
     CHECK(m.peaks[0].value == Approx(0.5 + radiance / 2).epsilon(2e-4));
 }
 
+TEST_CASE("a fluorophore that takes part of what the base leaves has that part of its yield") {
+    const TemporaryFolder folder;
+    const auto m = reports(folder,
+                           R"(<material name="m"><diffuse reflectance="constant:0.5"/>
+        <fluorescence excitation="gaussian:450,20" emission="550:1 560:1" yield="0.8" strength="0.1"/></material>)",
+                           white)
+                       .at(0);
+    CHECK(m.fluorescence.at(0).yield == Approx(0.08).epsilon(1e-9));
+}
+
 TEST_CASE("where emission and excitation overlap, the yield counts what leaves above the excitation only") {
     const TemporaryFolder folder;
     const auto m = reports(folder,
