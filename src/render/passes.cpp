@@ -294,9 +294,14 @@ void PassTextures::Body::refuseDark(size_t number, PixelPlace at) const {
     const GraphNode& node = graph[number];
     const std::string name = node.settings.bake ? "node '" + node.settings.bake->node + "'"
                                                 : "pass '" + node.shot.pass->name + "'";
-    throw InputError(node.settings.bake ? SourceLocation{} : node.shot.pass->where,
-                     fmt::format("{}: no light arrives at pixel {},{}, so it has no reflectance", name,
-                                 at.first, at.second));
+    const Pass* pass = node.settings.bake ? nullptr : node.shot.pass;
+    const bool lightsElsewhere = pass && pass->of && !pass->lights && !node.shot.scene->lights.empty() &&
+                                 flatten(*node.shot.scene, *pass).lights.empty();
+    throw InputError(
+        pass ? pass->where : SourceLocation{},
+        fmt::format(
+            "{}: no light arrives at pixel {},{}, so it has no reflectance{}", name, at.first, at.second,
+            lightsElsewhere ? " (no light stands in the node that it is of: lights= names others)" : ""));
 }
 
 Cube PassTextures::Body::renderPlain(size_t number, Substitute substitute, Plan* used) {

@@ -162,6 +162,16 @@ void TextureLoader::checkFits(const TextureUse& use, int width, int height, size
                         device_->name));
 }
 
+/// A file's fault is told where the scene names the file.
+template <typename Read>
+static auto atUse(const TextureUse& use, Read read) {
+    try {
+        return read();
+    } catch (const InputError& error) {
+        throw InputError(use.where, error.what());
+    }
+}
+
 SpectralTexture TextureLoader::load(const TextureUse& use) {
     if (use.isPass()) {
         for (const Pass& pass : scene_.passes)
@@ -181,9 +191,9 @@ SpectralTexture TextureLoader::load(const TextureUse& use) {
         texture = textureFromPicture(picture, library_, use.tint);
     } else {
         Notes saidWhenRead;
-        const CubeInfo info = readCubeInfo(use.source, saidWhenRead);
+        const CubeInfo info = atUse(use, [&] { return readCubeInfo(use.source, saidWhenRead); });
         checkFits(use, info.width, info.height, info.wavelengths.size());
-        texture = textureFrom(readCube(use.source, notes_), use, notes_);
+        texture = textureFrom(atUse(use, [&] { return readCube(use.source, notes_); }), use, notes_);
     }
     return texture;
 }

@@ -11,6 +11,8 @@ namespace {
 /// What an emission of 1 is taken as where the format states no unit: a display's white.
 constexpr double luminanceOfGlow = 100;
 constexpr double paintIndex = 1.5;
+/// What Assimp adds for meshes without a material; where all have one, it is not in the file.
+constexpr std::string_view assimpsOwn = "DefaultMaterial";
 
 std::string rgbText(const std::array<double, 3>& c) {
     return "rgb:" + shortest(c[0]) + "," + shortest(c[1]) + "," + shortest(c[2]);
@@ -135,8 +137,12 @@ std::string GraftedMaterials::uniqueName(const std::string& name) const {
 
 void GraftedMaterials::warnOfIdleBindings(Notes& notes) const {
     std::vector<std::string> names;
-    for (const ImportedMaterial& m : model_.materials)
-        names.push_back(m.name);
+    for (size_t i = 0; i < model_.materials.size(); ++i) {
+        const std::string& name = model_.materials[i].name;
+        const bool worn =
+            std::find(model_.meshMaterial.begin(), model_.meshMaterial.end(), i) != model_.meshMaterial.end();
+        if (worn || name != assimpsOwn) names.push_back(name);
+    }
     for (const Binding& binding : options_.bindings) {
         if (std::any_of(names.begin(), names.end(),
                         [&](const std::string& n) { return matches(binding.pattern, n); }))

@@ -325,7 +325,8 @@ class ColourChooser {
         if (out_.schlick) out_.reached = real.error;
         out_.choices.push_back(
             {out_.schlick ? "metals by Schlick's formula" : "metals exact",
-             fmt::format("Schlick's formula: CIEDE2000 {}, {} of the rendering time", rounded(real.error, 3),
+             fmt::format("{}CIEDE2000 {}, {} of the rendering time",
+                         out_.schlick ? "" : "by Schlick's formula ", rounded(real.error, 3),
                          rounded(real.seconds / std::max(exact.seconds, 1e-9), 2))});
     }
 

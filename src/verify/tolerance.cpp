@@ -9,7 +9,7 @@ namespace spectrad {
 std::string Tolerance::words() const {
     const std::string what = radiance ? "band error" : "CIEDE2000";
     return fmt::format("{} of {} pixels within {}", what, all ? "all" : "99 % of the",
-                       radiance ? shortest(100 * bound) + " %" : shortest(bound));
+                       radiance ? rounded(100 * bound, 12) + " %" : shortest(bound));
 }
 
 Tolerance parseTolerance(std::string_view text) {

@@ -147,6 +147,30 @@ TEST_CASE("what stays on the device – prints under coats, displays, their pyra
                  1, "pass 'chart': no light arrives at pixel");
 }
 
+TEST_CASE("a print of a node without lights of its own says how others come to count") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    const auto printed = [&](const char* lights) {
+        folder.write("s.xml", std::string(R"(<scene><node name="n"><plane size="9"/></node>
+<light name="lamp" type="directional" direction="0 0 -1" spectrum="illuminants/A" illuminance="1 lx"/>
+<camera type="orthographic" height="1" look-from="0 0 1" look-at="0 0 0" size="3x3"/>
+<pass name="p" as="reflectance" of="n")") +
+                                  lights + "/></scene>");
+        return run(folder, {"render", "s.xml", "-q"});
+    };
+    requireError(printed(""), 1, "lights= names others");
+    CHECK(printed(" lights=\"lamp\"").code == 0);
+}
+
+TEST_CASE("an image that cannot be read is told where the scene names it") {
+    const Folder folder;
+    folder.write("o.obj", "v 0 0 0\n");
+    folder.write("s.xml", R"(<scene>
+ <material name="m"><diffuse texture="o.obj"/></material><sphere material="m"/>
+<light type="ambient" spectrum="constant:1" scale="1"/><camera size="4x4"/></scene>)");
+    requireError(run(folder, {"info", "s.xml"}), 1, "s.xml:2:21: o.obj: is no spectral image");
+}
+
 TEST_CASE("a pass of another file is what rendering that file makes") {
     if (!cli::haveDevice()) return;
     const Folder folder;

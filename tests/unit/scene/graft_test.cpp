@@ -151,6 +151,14 @@ TEST_CASE(
     CHECK(flatten(w.scene).objects[0].node->meshes[0].material == 1);
     CHECK(w.said("s.xml:5:4: warning: no material of the model matches 'Flor' (did you mean 'Floor'?)"));
     CHECK_FALSE(w.said("'Wall*'"));
+    // What importers add and no mesh wears is not among those that there are.
+    ImportedScene model = twoTriangles();
+    model.materials.push_back({});
+    model.materials.back().name = "DefaultMaterial";
+    options.bindings = {{"Nosuch", 1, {"s.xml", 6, 4}}};
+    w.add(model, options);
+    CHECK(w.said("s.xml:6:4: warning: no material of the model matches 'Nosuch'"));
+    CHECK_FALSE(w.said("DefaultMaterial"));
 }
 
 TEST_CASE("one material for everything leaves the model's own out") {

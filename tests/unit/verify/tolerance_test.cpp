@@ -15,6 +15,11 @@ TEST_CASE("tolerances are read as they are written") {
         CHECK_THROWS_AS(parseTolerance(wrong), UsageError);
 }
 
+TEST_CASE("a tolerance is said in the digits that it was asked for in") {
+    CHECK(parseTolerance("max:0.0001%rad").words() == "band error of all pixels within 0.0001 %");
+    CHECK(parseTolerance("0.7%rad").words() == "band error of 99 % of the pixels within 0.7 %");
+}
+
 TEST_CASE("a certificate proves, leaves open or refutes") {
     Certificate c;
     c.pixels = 1000;
