@@ -168,7 +168,7 @@ TEST_CASE("an image that cannot be read is told where the scene names it") {
     folder.write("s.xml", R"(<scene>
  <material name="m"><diffuse texture="o.obj"/></material><sphere material="m"/>
 <light type="ambient" spectrum="constant:1" scale="1"/><camera size="4x4"/></scene>)");
-    requireError(run(folder, {"info", "s.xml"}), 1, "s.xml:2:21: o.obj: is no spectral image");
+    requireError(run(folder, {"info", "s.xml"}), 1, "s.xml:2:21: ./o.obj: is no spectral image");
 }
 
 TEST_CASE("a pass of another file is what rendering that file makes") {
