@@ -3,14 +3,12 @@
 #pragma once
 
 #include "image/cube.h"
+#include "image/pixel_place.h"
 #include "opencl/program.h"
 
 #include <optional>
-#include <utility>
 
 namespace spectrad {
-
-using PixelPlace = std::pair<int, int>;  ///< x, y
 
 /// Divides `cube` where light arrives. `white`, `coverage`: one band of the same picture. Returns the first
 /// pixel, row by row, where something is seen that no light reaches; the cube is of no use then.

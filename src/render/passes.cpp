@@ -300,7 +300,7 @@ void PassTextures::Body::refuseDark(size_t number, PixelPlace at) const {
     throw InputError(
         pass ? pass->where : SourceLocation{},
         fmt::format(
-            "{}: no light arrives at pixel {},{}, so it has no reflectance{}", name, at.first, at.second,
+            "{}: no light arrives at pixel {},{}, so it has no reflectance{}", name, at.x, at.y,
             lightsElsewhere ? " (no light stands in the node that it is of: lights= names others)" : ""));
 }
 

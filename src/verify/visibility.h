@@ -1,16 +1,13 @@
 // What single samples of single pixels see, in double precision, triangle by triangle.
 #pragma once
 
+#include "image/pixel_place.h"
 #include "render/samples.h"
 #include "verify/scalar_geometry.h"
 
 #include <span>
 
 namespace spectrad {
-
-struct PixelPlace {
-    int x = 0, y = 0;  ///< (0,0) top left
-};
 
 /// The nearest triangle at each sample of each pixel, [pixel][sample]; scalar::noTriangle where there is
 /// none. `pixels` ascend by y, then x. Where corners lie on the screen is defined to 1/256 of a pixel and

@@ -194,7 +194,7 @@ TEST_CASE("A reflectance is divided on the device as on the host, and refused at
             const auto there = stage.dark(), here = divideByWhite(cube, white, coverage);
             CHECK(there == here);
             if (dark)
-                CHECK(here == PixelPlace(66, 2));
+                CHECK(here == PixelPlace{66, 2});
             else
                 requireSame(divided, cube.values);
         }
