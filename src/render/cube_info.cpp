@@ -7,17 +7,37 @@
 
 namespace spectrad {
 
-CubeInfo cubeInfoOf(const Scene& scene, const Plan& plan, const Device& device, const std::string& software,
-                    const std::string& command) {
+namespace {
+
+CubeKind kindOf(PassKind kind) {
+    switch (kind) {
+        case PassKind::reflectance:
+            return CubeKind::reflectance;
+        case PassKind::transmittance:
+            return CubeKind::transmittance;
+        case PassKind::irradiance:
+            return CubeKind::irradiance;
+        case PassKind::radiance:
+            break;
+    }
+    return CubeKind::radiance;
+}
+
+}  // namespace
+
+CubeInfo cubeInfoOf(const Plan& plan) {
     CubeInfo info;
     info.width = plan.view.width;
     info.height = plan.view.height * plan.faces;
     info.wavelengths = plan.wavelengths;
     info.projectionStated = true;
-    info.kind = plan.as == PassKind::reflectance     ? CubeKind::reflectance
-                : plan.as == PassKind::transmittance ? CubeKind::transmittance
-                : plan.as == PassKind::irradiance    ? CubeKind::irradiance
-                                                     : CubeKind::radiance;
+    info.kind = kindOf(plan.as);
+    return info;
+}
+
+CubeInfo cubeInfoOf(const Scene& scene, const Plan& plan, const Device& device, const std::string& software,
+                    const std::string& command) {
+    CubeInfo info = cubeInfoOf(plan);
     info.attributes = {{"software", software},
                        {"scene", scene.file},
                        {"sceneSha256", scene.sha256},

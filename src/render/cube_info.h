@@ -7,7 +7,10 @@
 
 namespace spectrad {
 
-/// `software` with its version; `command`: what decides which picture it is, as a command line.
+/// Size, bands and what is held; of a camera that looks all around its six faces, one below the other.
+[[nodiscard]] CubeInfo cubeInfoOf(const Plan& plan);
+/// The same with everything that makes it a measurement. `software` with its version; `command`: what decides
+/// which picture it is, as a command line.
 [[nodiscard]] CubeInfo cubeInfoOf(const Scene& scene, const Plan& plan, const Device& device,
                                   const std::string& software, const std::string& command);
 

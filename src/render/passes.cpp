@@ -2,6 +2,7 @@
 
 #include "base/stopped.h"
 #include "render/bake.h"
+#include "render/cube_info.h"
 #include "render/divided.h"
 #include "render/renderer.h"
 #include "render/resident.h"
@@ -73,15 +74,6 @@ class NodeTextures : public TextureLoader {
     Find find_;
 };
 
-CubeInfo infoOf(const Plan& plan) {
-    CubeInfo info;
-    info.projectionStated = true;
-    info.width = plan.view.width;
-    info.height = plan.view.height * plan.faces;
-    info.wavelengths = plan.wavelengths;
-    return info;
-}
-
 size_t pixelsOf(const CubeInfo& info) {
     return static_cast<size_t>(info.width) * static_cast<size_t>(info.height);
 }
@@ -110,20 +102,6 @@ SpectralTexture darkTexel(const Wavelengths& grid) {
     texture.nm = grid.nm;
     texture.texels.assign(texture.nm.size(), 0.0f);
     return texture;
-}
-
-CubeKind kindOf(PassKind kind) {
-    switch (kind) {
-        case PassKind::reflectance:
-            return CubeKind::reflectance;
-        case PassKind::transmittance:
-            return CubeKind::transmittance;
-        case PassKind::irradiance:
-            return CubeKind::irradiance;
-        case PassKind::radiance:
-            break;
-    }
-    return CubeKind::radiance;
 }
 
 }  // namespace
@@ -241,7 +219,7 @@ std::shared_ptr<const ResidentTexels> PassTextures::Body::renderResident(size_t 
     Cube cube;  // of what is saved as well
     Plan used;
     const auto begin = [&](const Plan& plan) {
-        cube.info = infoOf(plan);
+        cube.info = cubeInfoOf(plan);
         const auto& [width, height] = std::pair(cube.info.width, cube.info.height);
         texels.emplace(device, plan.wavelengths, width, height, reflectance);
         if (pass.screen) screen.emplace(device, *pass.screen, plan.wavelengths, library, width);
@@ -256,7 +234,6 @@ std::shared_ptr<const ResidentTexels> PassTextures::Body::renderResident(size_t 
     };
     renderStrips(number, reflectance ? Substitute::equalEnergy : Substitute::none, finish, &used);
     if (screen) screen->finish(pixelsOf(cube.info), notes);
-    cube.info.kind = kindOf(pass.as);
     if (isSaved(number)) save(pass, used, cube);
     return texels->finish();
 }
@@ -307,7 +284,7 @@ void PassTextures::Body::refuseDark(size_t number, PixelPlace at) const {
 Cube PassTextures::Body::renderPlain(size_t number, Substitute substitute, Plan* used) {
     Cube cube;
     renderFaces(number, settingsFor(number, substitute), [&](int face, Plan& plan) {
-        cube.info = infoOf(plan);
+        cube.info = cubeInfoOf(plan);
         const size_t rowValues = plan.terms.bands * static_cast<size_t>(plan.view.width);
         cube.values.resize(rowValues * static_cast<size_t>(cube.info.height));
         float* top = cube.values.data() + rowValues * static_cast<size_t>(face * plan.view.height);
@@ -342,7 +319,6 @@ Cube PassTextures::Body::render(size_t number) {
             value *= std::numbers::pi_v<float>;
     if (as == PassKind::reflectance) cube = divided(number, std::move(cube));
     if (pass && pass->screen) cube = shownOn(*pass->screen, std::move(cube), library, notes);
-    cube.info.kind = kindOf(as);
     if (node.settings.bake) {
         const Cube coverage = renderPlain(number, Substitute::coverage);
         // A ratio of two sums over the same samples needs no dividing by their number.

@@ -1,6 +1,7 @@
 #include "study/trial.h"
 
 #include "base/stopwatch.h"
+#include "render/cube_info.h"
 #include "render/renderer.h"
 
 #include <Imath/half.h>
@@ -11,15 +12,6 @@
 namespace spectrad {
 
 namespace {
-
-CubeInfo infoOf(const Plan& plan) {
-    CubeInfo info;
-    info.width = plan.view.width;
-    info.height = plan.view.height;
-    info.wavelengths = plan.wavelengths;
-    info.projectionStated = true;
-    return info;
-}
 
 void keep(const OutputForm& form, std::vector<float>& values) {
     if (!form.half && form.mantissaBits >= 24) return;
@@ -45,7 +37,8 @@ Trial tryOut(const Device& device, const Entry& entry, const OutputForm& form,
     Renderer renderer(device, plan);
     Trial trial;
     trial.stripBytes = renderer.bytesPerStrip();
-    trial.cube.info = infoOf(plan);
+    trial.cube.info = cubeInfoOf(plan);
+    trial.cube.info.height = plan.view.height;  // of a camera that looks all around one face
     trial.xyz = ChannelImage(plan.view.width, plan.view.height, entry.weights.weights.size());
     const bool whole = settings.keepCube || !settings.file.empty();
     std::vector<float> preview;
