@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "base/text.h"
+#include "image/picture.h"
 #include "opencl/device.h"
 
 #include <algorithm>
@@ -105,6 +106,36 @@ void writeCube(const fs::path& path, int width, int height, const std::string& w
 
 std::string bytesOf(const fs::path& path) {
     return spectrad::readFile(path);
+}
+
+int codesApart(const fs::path& a, const fs::path& b) {
+    const spectrad::Picture8 one = spectrad::readPng(a), two = spectrad::readPng(b);
+    REQUIRE(one.width == two.width);
+    REQUIRE(one.height == two.height);
+    REQUIRE(one.channels == two.channels);
+    int worst = 0;
+    for (size_t i = 0; i < one.pixels.size(); ++i)
+        worst = std::max(worst, std::abs(one.pixels[i] - two.pixels[i]));
+    return worst;
+}
+
+void requireObserved(const Folder& folder, const std::string& cube, const std::string& picture,
+                     const std::vector<std::string>& options) {
+    std::vector<std::string> words{"observe", cube, "-o", "o.png", "-q"};
+    words.insert(words.end(), options.begin(), options.end());
+    REQUIRE(run(folder, words).code == 0);
+    CAPTURE(picture);
+    CHECK(codesApart(folder / picture, folder / "o.png") <= 1);
+}
+
+bool canDraw(const Outcome& outcome) {
+    if (outcome.code == 3 && outcome.err.find("libOSMesa") != std::string::npos) {
+        WARN("skipped: " << outcome.err);
+        return false;
+    }
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return true;
 }
 
 bool haveDevice() {

@@ -57,6 +57,16 @@ void writeCube(const fs::path& path, int width, int height, const std::string& w
                const std::map<std::string, std::string>& attributes = {});
 [[nodiscard]] std::string bytesOf(const fs::path& path);
 
+/// Largest difference of two pictures' 8-bit codes; fails the test unless they are of one size.
+[[nodiscard]] int codesApart(const fs::path& a, const fs::path& b);
+/// Fails the test unless `observe cube options…` makes that picture, within one code.
+void requireObserved(const Folder& folder, const std::string& cube, const std::string& picture,
+                     const std::vector<std::string>& options);
+
+/// Whether `view` made its picture off screen; false, and said, where that cannot be had. Fails the test for
+/// any other failure.
+[[nodiscard]] bool canDraw(const Outcome& outcome);
+
 /// True where an OpenCL device is; else says that the test is skipped.
 [[nodiscard]] bool haveDevice();
 

@@ -2,37 +2,16 @@
 #include "cli/support.h"
 #include "image/picture.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
+using cli::canDraw;
+using cli::codesApart;
 using cli::Folder;
 using cli::Outcome;
 using cli::requireError;
 using cli::run;
 
 namespace {
-
-int codesApart(const std::filesystem::path& a, const std::filesystem::path& b) {
-    const spectrad::Picture8 one = spectrad::readPng(a), two = spectrad::readPng(b);
-    REQUIRE(one.width == two.width);
-    REQUIRE(one.height == two.height);
-    REQUIRE(one.channels == two.channels);
-    int worst = 0;
-    for (size_t i = 0; i < one.pixels.size(); ++i)
-        worst = std::max(worst, std::abs(one.pixels[i] - two.pixels[i]));
-    return worst;
-}
-
-bool canDraw(const Outcome& outcome) {
-    if (outcome.code == 3 && outcome.err.find("libOSMesa") != std::string::npos) {
-        WARN("skipped: " << outcome.err);
-        return false;
-    }
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
-    return true;
-}
 
 double value(int x, int y, double nm) {
     return 0.5 + 0.45 * std::sin(nm / 30 + 0.1 * x) * std::cos(0.05 * y);
@@ -61,12 +40,8 @@ TEST_CASE("a radiance cube in the viewer is the picture that observe makes, with
     if (!canDraw(run(folder,
                      {"view", "cube.exr", "--offscreen", "last.png", "--plain", "--script", "script.txt"})))
         return;
-    const auto observed = [&](const char* picture, std::vector<std::string> options) {
-        std::vector<std::string> words{"observe", "cube.exr", "-o", "o.png", "-q"};
-        words.insert(words.end(), options.begin(), options.end());
-        REQUIRE(run(folder, words).code == 0);
-        CAPTURE(picture);
-        CHECK(codesApart(folder / picture, folder / "o.png") <= 1);
+    const auto observed = [&](const char* picture, const std::vector<std::string>& options) {
+        cli::requireObserved(folder, "cube.exr", picture, options);
     };
     observed("first.png", {});
     observed("ten.png", {"--observer", "cie1964-10"});

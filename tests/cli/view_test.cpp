@@ -1,12 +1,12 @@
 // view: off screen and in a window, as a script uses it.
 #include "cli/support.h"
-#include "image/picture.h"
 
 #include <algorithm>
 #include <cstdlib>
 
+using cli::canDraw;
+using cli::codesApart;
 using cli::Folder;
-using cli::Outcome;
 using cli::requireError;
 using cli::run;
 
@@ -21,29 +21,6 @@ constexpr const char* balls = R"(<scene version="1">
   <camera name="eye" fov="40" look-from="0 0 5" look-at="0 0 0" size="120x80"/>
 </scene>
 )";
-
-/// Largest difference of two pictures' codes.
-int codesApart(const std::filesystem::path& a, const std::filesystem::path& b) {
-    const spectrad::Picture8 one = spectrad::readPng(a), two = spectrad::readPng(b);
-    REQUIRE(one.width == two.width);
-    REQUIRE(one.height == two.height);
-    REQUIRE(one.channels == two.channels);
-    int worst = 0;
-    for (size_t i = 0; i < one.pixels.size(); ++i)
-        worst = std::max(worst, std::abs(one.pixels[i] - two.pixels[i]));
-    return worst;
-}
-
-/// False, and said, where a picture off screen cannot be had.
-bool canDraw(const Outcome& outcome) {
-    if (outcome.code == 3 && outcome.err.find("libOSMesa") != std::string::npos) {
-        WARN("skipped: " << outcome.err);
-        return false;
-    }
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
-    return true;
-}
 
 }  // namespace
 
@@ -92,12 +69,8 @@ TEST_CASE("films, detectors of scenes and whites of the image: view shows what o
                      {"view", "balls.xml", "--offscreen", "last.png", "--plain", "--script", "script.txt"})))
         return;
     REQUIRE(run(folder, {"render", "balls.xml", "-o", "a.exr", "-q"}).code == 0);
-    const auto observed = [&](const char* picture, std::vector<std::string> options) {
-        std::vector<std::string> words{"observe", "a.exr", "-o", "o.png", "-q"};
-        words.insert(words.end(), options.begin(), options.end());
-        REQUIRE(run(folder, words).code == 0);
-        CAPTURE(picture);
-        CHECK(codesApart(folder / picture, folder / "o.png") <= 1);
+    const auto observed = [&](const char* picture, const std::vector<std::string>& options) {
+        cli::requireObserved(folder, "a.exr", picture, options);
     };
     observed("film.png", {"--observer", "generic-reversal"});
     observed("brighter.png",
