@@ -2,7 +2,7 @@
 // with all of them fluorescent, measured in turn. Light factors, so that nothing is to be paid.
 #include "base/files.h"
 #include "measure.h"
-#include "render/renderer.h"
+#include "renders.h"
 #include "scene/load.h"
 #include "spectrum/library.h"
 
@@ -45,15 +45,7 @@ void run(int rounds) {
         plans.push_back(makePlan(loadScene(file, library, {}, notes), {}, library, notes));
     }
     std::filesystem::remove(file);
-    std::vector<std::unique_ptr<Renderer>> renderers;
-    std::vector<std::function<void()>> contestants;
-    for (const Plan& plan : plans) {
-        renderers.push_back(std::make_unique<Renderer>(device, plan));
-        contestants.emplace_back([renderer = renderers.back().get()] {
-            renderer->render([](int, int, const float*, const float*) {});
-        });
-    }
-    const std::vector<bench::Times> times = bench::inTurn(contestants, rounds);
+    const std::vector<bench::Times> times = bench::inTurn(bench::rendersOf(device, plans), rounds);
     fmt::print("device: {}; {} x {} pixels, {} bands, {} samples a pixel, {} patches\n", device.info().name,
                plans[0].view.width, plans[0].view.height, plans[0].terms.bands, plans[0].samples, patches);
     fmt::print("{:>11} |{:>6} {:>11} | {}\n", "fluorescent", "terms", "render ms",

@@ -3,7 +3,7 @@
 // do. All in turn.
 #include "image/cube.h"
 #include "measure.h"
-#include "render/renderer.h"
+#include "renders.h"
 #include "scene/load.h"
 #include "spectrum/library.h"
 
@@ -101,14 +101,7 @@ void compare(const Device& device, const Library& library, const std::string& at
         Notes notes;
         plans.push_back(makePlan(loadScene(file, library, {}, notes), settings, library, notes));
     }
-    std::vector<std::unique_ptr<Renderer>> renderers;
-    std::vector<std::function<void()>> contestants;
-    for (const Plan& plan : plans) {
-        renderers.push_back(std::make_unique<Renderer>(device, plan));
-        contestants.emplace_back([renderer = renderers.back().get()] {
-            renderer->render([](int, int, const float*, const float*) {});
-        });
-    }
+    std::vector<std::function<void()>> contestants = bench::rendersOf(device, plans);
     const auto copying = std::make_shared<Copying>(static_cast<size_t>(side) * side * grid.size());
     contestants.emplace_back([copying] { (*copying)(); });
     const std::vector<bench::Times> times = bench::inTurn(contestants, rounds);
