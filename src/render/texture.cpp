@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <unordered_map>
 
@@ -125,10 +124,7 @@ SpectralTexture textureFromPicture(const Picture8& picture, const Library& libra
     texture.nm = regularWavelengths(380, 780, 10, {}).nm;
     const size_t bands = texture.nm.size(), channels = static_cast<size_t>(picture.channels);
     const ColourLift lift(library, texture.nm);
-    const auto linear = [](std::uint32_t encoded) {
-        const double v = encoded / 255.0;
-        return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    };
+    const auto linear = [](std::uint32_t code) { return linearOfSrgb(code / 255.0); };
     // Pictures repeat their colours: each is lifted once.
     std::unordered_map<std::uint32_t, size_t> first;  // where a colour's curve begins, by 0xRRGGBB
     std::vector<float> curves;

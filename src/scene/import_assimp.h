@@ -7,6 +7,7 @@
 
 #include <assimp/scene.h>
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <unordered_map>
@@ -34,6 +35,9 @@ struct FormatTraits {
 /// "" of a file that has no such text; control characters as blanks, at most a few hundred bytes.
 [[nodiscard]] std::string oneLine(std::string_view text);
 
+[[nodiscard]] bool isBlack(const std::array<double, 3>& c);
+/// The colour that Assimp puts where a file states none.
+[[nodiscard]] bool isAssimpsGrey(const std::array<double, 3>& c);
 /// Sets the scene's materials and pictures.
 void convertMaterials(const aiScene& from, const FormatTraits& traits, ImportedScene& to);
 

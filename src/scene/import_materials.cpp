@@ -1,4 +1,5 @@
 #include "scene/import_assimp.h"
+#include "spectrum/lift.h"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/material.h>
@@ -9,11 +10,6 @@
 namespace spectrad {
 
 namespace {
-
-/// IEC 61966-2-1: display value to linear.
-double decodeSrgb(double v) {
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
 
 std::optional<std::array<double, 3>> colour(const aiMaterial& from, const char* key, unsigned type,
                                             unsigned index) {
@@ -30,15 +26,11 @@ std::optional<double> number(const aiMaterial& from, const char* key, unsigned t
     return value;
 }
 
-bool black(const std::array<double, 3>& c) {
-    return c[0] <= 0 && c[1] <= 0 && c[2] <= 0;
-}
-
 /// glTF's colours are linear. Those of all other formats are what authors see on a display, so sRGB-encoded.
 std::array<double, 3> reflectance(std::array<double, 3> c, const FormatTraits& traits) {
     for (double& v : c) {
         v = std::clamp(v, 0.0, 1.0);
-        if (!traits.gltf) v = decodeSrgb(v);
+        if (!traits.gltf) v = linearOfSrgb(v);
     }
     return c;
 }
@@ -47,7 +39,7 @@ std::array<double, 3> reflectance(std::array<double, 3> c, const FormatTraits& t
 std::array<double, 3> emission(std::array<double, 3> c, const FormatTraits& traits, double strength) {
     for (double& v : c) {
         v = std::max(v, 0.0);
-        if (!traits.gltf && v < 1) v = decodeSrgb(v);
+        if (!traits.gltf && v < 1) v = linearOfSrgb(v);
         v = std::min(v * strength, 1e30);
     }
     return c;
@@ -85,7 +77,7 @@ void setMetallicRoughness(const aiMaterial& from, ImportedMaterial& to, std::vec
 /// Strength of the highlight has no physical reading; that there is one is taken as a dielectric coat.
 void setCoat(const aiMaterial& from, ImportedMaterial& to) {
     const auto specular = colour(from, AI_MATKEY_COLOR_SPECULAR);
-    if (!specular || black(*specular) || !statesSpecular(from)) return;
+    if (!specular || isBlack(*specular) || !statesSpecular(from)) return;
     to.ior = 1.5;
     if (const auto glossiness = number(from, AI_MATKEY_GLOSSINESS_FACTOR))
         to.roughness = 1 - std::clamp(*glossiness, 0.0, 1.0);
@@ -99,8 +91,7 @@ bool inventedByAssimp(const aiMaterial& from, bool last, const FormatTraits& tra
     if (traits.gltf) return last;
     if (std::string(from.GetName().C_Str()) != AI_DEFAULT_MATERIAL_NAME) return false;
     const auto c = colour(from, AI_MATKEY_COLOR_DIFFUSE);
-    const auto is06 = [](double v) { return std::abs(v - 0.6) < 1e-6; };
-    return !c || (is06((*c)[0]) && is06((*c)[1]) && is06((*c)[2]));
+    return !c || isAssimpsGrey(*c);
 }
 
 ImportedMaterial convert(const aiMaterial& from, bool last, const FormatTraits& traits,
@@ -135,6 +126,14 @@ bool transparent(const aiMaterial& from) {
 }
 
 }  // namespace
+
+bool isBlack(const std::array<double, 3>& c) {
+    return c[0] <= 0 && c[1] <= 0 && c[2] <= 0;
+}
+
+bool isAssimpsGrey(const std::array<double, 3>& c) {
+    return std::all_of(c.begin(), c.end(), [](double v) { return std::abs(v - 0.6) < 1e-6; });
+}
 
 void convertMaterials(const aiScene& from, const FormatTraits& traits, ImportedScene& to) {
     MaterialPictures pictures(from, traits, to);

@@ -63,15 +63,10 @@ bool usable(const ImportedPicture& picture) {
            finite(picture.rotateDegrees);
 }
 
-bool black(const std::array<double, 3>& c) {
-    return c[0] <= 0 && c[1] <= 0 && c[2] <= 0;
-}
-
-/// Whether an OBJ's material names its colour: Assimp puts 0.6 where it does not.
+/// Whether an OBJ's material names its colour.
 bool statesColour(const aiMaterial& from) {
     aiColor3D c;
-    const auto is06 = [](double v) { return std::abs(v - 0.6) < 1e-6; };
-    return from.Get(AI_MATKEY_COLOR_DIFFUSE, c) == aiReturn_SUCCESS && !(is06(c.r) && is06(c.g) && is06(c.b));
+    return from.Get(AI_MATKEY_COLOR_DIFFUSE, c) == aiReturn_SUCCESS && !isAssimpsGrey({c.r, c.g, c.b});
 }
 
 }  // namespace
@@ -151,7 +146,7 @@ void MaterialPictures::add(const aiMaterial& from, const std::array<double, 3>& 
     if (!to.colours) to.colours = read(from, aiTextureType_DIFFUSE);
     // glTF and OBJ multiply a picture by the colour beside it; elsewhere it takes the colour's place.
     if (to.colours && (traits_.gltf || (traits_.obj && statesColour(from)))) {
-        if (black(stated))
+        if (isBlack(stated))
             to_.remarks.push_back("material '" + to.name + "': black times a picture: the picture is taken");
         else
             to.tint = stated;

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace spectrad {
 
@@ -85,10 +84,8 @@ std::array<double, 3> hexColour(const Reading& reading) {
     if (!hex) reading.fail("takes # and six hexadecimal digits");
     const auto digit = [](char c) { return c <= '9' ? c - '0' : (c | 0x20) - 'a' + 10; };
     std::array<double, 3> rgb{};
-    for (size_t i = 0; i < 3; ++i) {
-        const double v = (16 * digit(text[1 + 2 * i]) + digit(text[2 + 2 * i])) / 255.0;
-        rgb[i] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);  // IEC 61966-2-1
-    }
+    for (size_t i = 0; i < 3; ++i)
+        rgb[i] = linearOfSrgb((16 * digit(text[1 + 2 * i]) + digit(text[2 + 2 * i])) / 255.0);
     return rgb;
 }
 

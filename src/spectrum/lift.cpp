@@ -75,6 +75,10 @@ Vector solve(const Matrix& m, const Vector& b) {
 
 }  // namespace
 
+double linearOfSrgb(double encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
 Vector xyzOfLinearSrgb(const Vector& rgb) {
     // From the primaries' chromaticities and D65 at x = 0.3127, y = 0.3290, without the standard's rounding
     // to four digits.

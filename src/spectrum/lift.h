@@ -20,6 +20,9 @@ struct LiftedColour {
     [[nodiscard]] Curve curve() const;
 };
 
+/// An sRGB component (IEC 61966-2-1), 0…1 as displays take it, to linear light.
+[[nodiscard]] double linearOfSrgb(double encoded);
+
 /// Linear sRGB (IEC 61966-2-1) to XYZ, and its white (1, 1, 1).
 [[nodiscard]] std::array<double, 3> xyzOfLinearSrgb(const std::array<double, 3>& rgb);
 
