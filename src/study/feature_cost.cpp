@@ -146,26 +146,16 @@ std::vector<Simpler> simplerScenes(const Scene& scene, const Plan& plan, Texture
     return out;
 }
 
-namespace {
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-}  // namespace
-
 TimeDifference timeDifference(const std::vector<double>& with, const std::vector<double>& without) {
     std::vector<double> difference, off;
     for (size_t i = 0; i < with.size(); ++i)
         difference.push_back(with[i] - without[i]);
     TimeDifference out;
-    out.seconds = median(difference);
+    out.seconds = quantile(difference, 0.5);
     for (double d : difference)
         off.push_back(std::abs(d - out.seconds));
     // Of a median of n: 1.253 σ/√n, σ by the median deviation (of a normal distribution 1.483 of it).
-    const double sigma = 1.483 * median(off);
+    const double sigma = 1.483 * quantile(off, 0.5);
     out.uncertainty = 2 * 1.253 * sigma / std::sqrt(static_cast<double>(difference.size()));
     if (std::abs(out.seconds) <= out.uncertainty) out.seconds = 0;
     return out;
