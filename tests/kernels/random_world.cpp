@@ -298,6 +298,12 @@ Plan randomPlan(unsigned seed, int samples, bool orthographic, int triangles, in
     return plan;
 }
 
+Plan unbent(Plan plan) {
+    for (sd_material& material : plan.world.materials)
+        material.relief = 0;
+    return plan;
+}
+
 Plan adversarialPlan(unsigned seed, bool orthographic) {
     Plan plan = emptyPlan(seed % 3 == 0 ? 1 : 16, orthographic, 70, 33);
     World& world = plan.world;

@@ -10,6 +10,9 @@ namespace spectrad {
 /// textured), lights of every type in two groups.
 [[nodiscard]] Plan randomPlan(unsigned seed, int samples, bool orthographic, int triangles, int height);
 
+/// Without bent normals: the random world's lean so far that they lose more digits than lobes do.
+[[nodiscard]] Plan unbent(Plan plan);
+
 /// Slivers, points, triangles behind and through the eye, far outside, larger than the image by 1e6, sharing
 /// edges and corners, duplicated, depths from 1e-9 to 1e9.
 [[nodiscard]] Plan adversarialPlan(unsigned seed, bool orthographic);

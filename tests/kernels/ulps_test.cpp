@@ -1,11 +1,8 @@
 // How far each kernel is from the same formulae in long double: histograms for docs/extremes.md, printed by
 // `test_kernels "[.ulps]"` for the device that is opened.
+#include "kernels/oracle.h"
 #include "kernels/random_world.h"
-#include "kernels/read_back.h"
-#include "kernels/twin.h"
-#include "render/stages.h"
 
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,48 +57,13 @@ void measureVertices(const Plan& plan, const sd_frame& frame, const std::string&
 }
 
 void measure(const Device& device, const Plan& plan, const std::string& world, Histograms& out) {
-    const sd_frame frame = twin::frameOf(plan);
-    measureVertices(plan, frame, world, out);
-    const LanePattern lanes = lanePattern(plan.samples, device.body().vectorWidth());
-    Stages stages(device, plan, lanes);
-    stages.transform();
-    const int height = plan.view.height;
-    REQUIRE(stages.light(0, height));
-    const auto pitch = static_cast<size_t>(frame.pitch), rows = static_cast<size_t>(height),
-               bands = plan.terms.bands;
-    const auto keys = read<std::uint64_t>(device, stages.keys().buffer(), rows * pitch * lanes.slotX.size());
-    const auto first = read<std::uint32_t>(device, stages.terms().first.buffer(), stages.terms().blocks + 1);
-    const auto g = read<float>(device, stages.terms().g.buffer(), size_t{first.back()} * SD_BLOCK);
-    DeviceArray<float> cube, preview;
-    stages.expand(0, height, cube, preview);
-    const auto radiance = read<float>(device, cube.buffer(), rows * bands * pitch);
-    const twin::Vertices vertices = twin::transform(plan.world, frame);
-    const int blocksX = frame.pitch / SD_BLOCK;
-    for (size_t number = 0; number < stages.terms().blocks; ++number) {
-        const int row = static_cast<int>(number) / blocksX, column = static_cast<int>(number) % blocksX;
-        const auto block = twin::light<long double>(plan, vertices, frame, lanes, keys, row, column,
-                                                    device.body().vectorWidth());
-        const float* ours = g.data() + size_t{first[number]} * SD_BLOCK;
-        for (size_t i = 0; i < block.g.size(); ++i)
-            out["light, factors, " + world].add(ours[i], block.g[i], std::fabs(block.g[i]));
-        for (size_t band = 0; band < bands; ++band)
-            for (size_t x = 0; x < SD_BLOCK; ++x) {
-                long double sum = 0;
-                for (size_t t = 0; t < block.term.size(); ++t)
-                    sum += static_cast<long double>(plan.terms.spectra[block.term[t] * bands + band]) *
-                           ours[t * SD_BLOCK + x];
-                out["expand, bands, " + world].add(
-                    radiance[(static_cast<size_t>(row) * bands + band) * pitch +
-                             static_cast<size_t>(column) * SD_BLOCK + x],
-                    sum, std::fabs(sum));
-            }
-    }
-}
-
-Plan unbent(Plan plan) {
-    for (sd_material& material : plan.world.materials)
-        material.relief = 0;
-    return plan;
+    measureVertices(plan, twin::frameOf(plan), world, out);
+    const auto into = [](Histogram& histogram) {
+        return
+            [&histogram](float value, long double right) { histogram.add(value, right, std::fabs(right)); };
+    };
+    besideOracle<long double>(device, plan, into(out["light, factors, " + world]),
+                              into(out["expand, bands, " + world]));
 }
 
 }  // namespace
