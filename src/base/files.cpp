@@ -133,6 +133,11 @@ void PendingFile::commit() {
     committed_ = true;
 }
 
+bool isFile(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
 std::string readFile(const fs::path& path, std::uintmax_t limit) {
     std::error_code error;
     if (fs::is_directory(path, error)) throw InputError(path.string() + ": is a folder");

@@ -37,6 +37,8 @@ class PendingFile {
 /// Removes the pending files of this process; async-signal-safe, for the program's signal handlers.
 void removePendingFiles() noexcept;
 
+/// False for what is not there or cannot be asked about, too.
+[[nodiscard]] bool isFile(const std::filesystem::path& path);
 /// Whole file; throws InputError when it cannot be read, or is larger than `limit` bytes (names both
 /// numbers).
 [[nodiscard]] std::string readFile(const std::filesystem::path& path, std::uintmax_t limit = 1u << 30);

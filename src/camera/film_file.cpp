@@ -84,8 +84,7 @@ CharacteristicCurve curveIn(const Line& line) {
 std::filesystem::path libraryFile(const std::string& name, const Library& library) {
     for (const char* folder : {"", "films/"}) {
         const std::filesystem::path path = library.folder() / (folder + name + ".film");
-        std::error_code none;
-        if (std::filesystem::is_regular_file(path, none)) return path;
+        if (isFile(path)) return path;
     }
     return {};
 }

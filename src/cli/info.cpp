@@ -1,6 +1,7 @@
 // spectrad info: what a scene needs, what a cube holds, what a spectrum is, or what the library has.
 #include "cli/info.h"
 
+#include "base/files.h"
 #include "camera/film.h"
 #include "cli/commands.h"
 #include "image/cube.h"
@@ -42,7 +43,7 @@ Kind kindOf(const std::string& text) {
     // A scene's name is enough: with scene.img and scene.hdr beside it, it would look like their cube.
     if (extension == ".xml") return Kind::scene;
     if (isFilm(text, Library::open())) return Kind::film;
-    if (fs::is_regular_file(text, ignored)) {
+    if (isFile(text)) {
         if (looksLikeCube(text)) return Kind::cube;
         return contains(spectrumExtensions, extension) ? Kind::spectrum : Kind::scene;
     }

@@ -33,11 +33,6 @@ bool startsLikeEnvi(const fs::path& path) {
     return startsWith(text, "ENVI");
 }
 
-bool isFile(const fs::path& path) {
-    std::error_code ignored;
-    return fs::is_regular_file(path, ignored);
-}
-
 fs::path findEnviData(const fs::path& path, const fs::path& header) {
     if (path != header) return path;
     fs::path stem = fs::path(header).replace_extension();  // of x.img.hdr: x.img

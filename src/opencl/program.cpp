@@ -79,8 +79,7 @@ cl::Program fromBinary(const Device::Body& body, const std::string& bytes, const
 // Cached binaries are only a shortcut: whatever is wrong with one, the source is compiled instead.
 bool loadCached(const Device::Body& body, const fs::path& file, const std::string& options,
                 cl::Program& program) {
-    std::error_code error;
-    if (!fs::is_regular_file(file, error)) return false;
+    if (!isFile(file)) return false;
     try {
         const std::string stored = readFile(file);
         constexpr size_t digestLength = 64;

@@ -1,11 +1,11 @@
 #include "scene/graft_pictures.h"
 
+#include "base/files.h"
 #include "base/text.h"
 
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <system_error>
 
 namespace spectrad {
 
@@ -82,7 +82,6 @@ void GraftedPictures::warn(Notes& notes) const {
 }
 
 std::optional<fs::path> GraftedPictures::find(const std::string& name) {
-    std::error_code error;
     bool outside = false;
     for (const std::string& reading : readings(name)) {
         const fs::path path = (file_.parent_path() / reading).lexically_normal();
@@ -90,7 +89,7 @@ std::optional<fs::path> GraftedPictures::find(const std::string& name) {
             outside = true;
             continue;
         }
-        if (!fs::is_regular_file(path, error)) continue;
+        if (!isFile(path)) continue;
         std::string first(4, '\0');
         std::ifstream file(path, std::ios::binary);
         file.read(first.data(), static_cast<std::streamsize>(first.size()));

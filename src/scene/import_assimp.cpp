@@ -1,5 +1,6 @@
 #include "scene/import_assimp.h"
 
+#include "base/files.h"
 #include "base/text.h"
 
 #include <assimp/ColladaMetaData.h>
@@ -41,9 +42,9 @@ class WatchedFiles : public Assimp::DefaultIOSystem {
 
   private:
     [[nodiscard]] bool allowed(const char* file) const {
-        std::error_code error;
-        if (!fs::is_regular_file(file, error)) return false;  // a device or a pipe could block
+        if (!isFile(file)) return false;  // a device or a pipe could block
         if (!folder_) return true;
+        std::error_code error;
         const fs::path whole = fs::canonical(file, error);
         if (error) return false;
         return std::mismatch(folder_->begin(), folder_->end(), whole.begin(), whole.end()).first ==

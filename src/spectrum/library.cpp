@@ -1,5 +1,6 @@
 #include "spectrum/library.h"
 
+#include "base/files.h"
 #include "base/text.h"
 #include "spectrum/readers/reader.h"
 
@@ -105,11 +106,6 @@ bool staysInside(std::string_view name) {
     for (std::string_view piece : split(name, '/'))
         if (piece.empty() || piece.front() == '.') return false;
     return std::ranges::none_of(name, [](unsigned char c) { return c < 0x20 || c == '\\'; });
-}
-
-bool isFile(const fs::path& path) {
-    std::error_code ignored;
-    return fs::is_regular_file(path, ignored);
 }
 
 bool isFolder(const fs::path& path) {

@@ -1,5 +1,6 @@
 #include "spectrum/resolver.h"
 
+#include "base/files.h"
 #include "base/text.h"
 #include "spectrum/formula_text.h"
 #include "spectrum/readers/reader.h"
@@ -17,11 +18,6 @@ namespace spectrad {
 namespace fs = std::filesystem;
 
 namespace {
-
-bool isFile(const fs::path& path) {
-    std::error_code ignored;
-    return fs::is_regular_file(path, ignored);
-}
 
 /// Whether `path`, links resolved, lies in `folder`; what does not exist is resolved as far as it does.
 bool isBelow(const fs::path& path, const fs::path& folder) {
