@@ -1,5 +1,7 @@
 #include "colour/cct.h"
 
+#include "spectrum/gauss.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,8 +19,7 @@ PlanckianLocus::PlanckianLocus(const Detector& observer) {
     if (!observer.tristimulus || observer.size() != 3)
         throw InputError("colour temperatures need an observer with the channels X, Y, Z, not '" +
                          observer.name + "'");
-    // The observer's curves are smooth between their breaks: a 4-point Gauss rule there (Abramowitz &
-    // Stegun, 25.4.30).
+    // The observer's curves are smooth between their breaks: a 4-point Gauss rule there.
     std::vector<double> cuts;
     for (const Curve& curve : observer.response)
         if (const auto range = curve.range()) {
@@ -28,15 +29,11 @@ PlanckianLocus::PlanckianLocus(const Detector& observer) {
         }
     std::sort(cuts.begin(), cuts.end());
     cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
-    constexpr std::array<double, 4> abscissa{-0.861136311594052575, -0.339981043584856265,
-                                             0.339981043584856265, 0.861136311594052575};
-    constexpr std::array<double, 4> weight{0.347854845137453857, 0.652145154862546143, 0.652145154862546143,
-                                           0.347854845137453857};
     for (size_t i = 0; i + 1 < cuts.size(); ++i)
-        for (size_t k = 0; k < 4; ++k) {
+        for (size_t k = 0; k < gaussNodes.size(); ++k) {
             const double half = (cuts[i + 1] - cuts[i]) / 2,
-                         nm = (cuts[i] + cuts[i + 1]) / 2 + half * abscissa[k];
-            const double scale = half * weight[k] * std::pow(nm / 560, -4);
+                         nm = (cuts[i] + cuts[i + 1]) / 2 + half * gaussNodes[k];
+            const double scale = half * gaussWeights[k] * std::pow(nm / 560, -4);
             nodes_.push_back({nm,
                               {observer.response[0].at(nm) * scale, observer.response[1].at(nm) * scale,
                                observer.response[2].at(nm) * scale}});

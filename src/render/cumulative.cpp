@@ -1,6 +1,7 @@
 #include "render/cumulative.h"
 
 #include "base/error.h"
+#include "spectrum/gauss.h"
 #include "spectrum/projection.h"
 
 #include <algorithm>
@@ -9,18 +10,14 @@ namespace spectrad {
 
 namespace {
 
+/// On a segment without breaks.
 double segment(const std::vector<Curve>& factors, double from, double to) {
-    // 4-point Gauss–Legendre on a segment without breaks.
-    static constexpr double x[4] = {-0.86113631159405257522, -0.33998104358485626480, 0.33998104358485626480,
-                                    0.86113631159405257522};
-    static constexpr double w[4] = {0.34785484513745385737, 0.65214515486254614263, 0.65214515486254614263,
-                                    0.34785484513745385737};
     const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
     double sum = 0;
-    for (int i = 0; i < 4; ++i) {
-        double product = w[i];
+    for (size_t i = 0; i < gaussNodes.size(); ++i) {
+        double product = gaussWeights[i];
         for (const Curve& factor : factors)
-            product *= factor.at(middle + half * x[i]);
+            product *= factor.at(middle + half * gaussNodes[i]);
         sum += product;
     }
     return sum * half;
