@@ -1,6 +1,7 @@
 #include "colour/cct.h"
 
 #include "spectrum/gauss.h"
+#include "spectrum/si.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,6 @@ static constexpr double leastMired = 1, mostMired = 1250;  // 1 000 000 K … 80
 static constexpr double miredStep = 5;
 static constexpr size_t tableSize = 252;  // from 0 to one step beyond mostMired
 static constexpr double largestDuv = 0.05;
-static constexpr double secondRadiation = 1.438776877e7;  // c₂ = h c / k, nm·K (CODATA 2018, exact)
 
 PlanckianLocus::PlanckianLocus(const Detector& observer) {
     if (!observer.tristimulus || observer.size() != 3)
@@ -45,10 +45,10 @@ PlanckianLocus::PlanckianLocus(const Detector& observer) {
 
 PlanckianLocus::Point PlanckianLocus::point(double mired) const {
     // Planck's law but for a factor of the temperature alone: λ⁻⁴ x / (eˣ − 1), x = c₂ / (λ T), which stays
-    // finite at x = 0.
+    // finite at x = 0; a mired is 1e-6/K.
     Triple xyz{}, slope{};
     for (const Node& node : nodes_) {
-        const double perMired = secondRadiation * 1e-6 / node.nm, x = perMired * mired;
+        const double perMired = 1e9 * secondRadiation * 1e-6 / node.nm, x = perMired * mired;
         double value, derivative;
         if (x < 1e-4) {
             value = 1 - x / 2 + x * x / 12;

@@ -1,6 +1,7 @@
 #include "image/channel_names.h"
 
 #include "base/text.h"
+#include "spectrum/si.h"
 
 #include <fmt/format.h>
 
@@ -12,8 +13,7 @@ namespace spectrad {
 
 namespace {
 
-constexpr double lightSpeed = 299792458;  // m/s
-constexpr size_t longestName = 31;        // bytes; a longer name sets the file's "long names" flag
+constexpr size_t longestName = 31;  // bytes; a longer name sets the file's "long names" flag
 
 struct Prefix {
     std::string_view text;
@@ -81,7 +81,7 @@ std::optional<double> parseWave(std::string_view text, char decimalMark) {
     }
     if (const auto metres = unitExponent(text, "m")) return scaled(mantissa, exponent + *metres + 9);
     if (const auto hertz = unitExponent(text, "Hz"))
-        return lightSpeed / scaled(mantissa, exponent + *hertz) * 1e9;
+        return speedOfLight / scaled(mantissa, exponent + *hertz) * 1e9;
     return std::nullopt;
 }
 

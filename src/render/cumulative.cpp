@@ -10,7 +10,7 @@ namespace spectrad {
 
 namespace {
 
-/// On a segment without breaks.
+/// By the 4-point Gauss rule, on a segment without breaks.
 double segment(const std::vector<Curve>& factors, double from, double to) {
     const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
     double sum = 0;

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "spectrum/efficacy.h"
+#include "spectrum/si.h"
 
 #include <fmt/format.h>
 
@@ -16,10 +17,9 @@ constexpr std::string_view quantumPrefix = "qe:";
 constexpr const char* example =
     "as in 'qe:sensors/ccd * filters/ir-cut * (R = filters/red, G = filters/green)'";
 
-/// Photons per joule at a wavelength in nm: λ/hc with the SI's exact h and c.
+/// Photons per joule at a wavelength in nm: λ/hc.
 double photonsPerJoule(double nm) {
-    constexpr double planck = 6.62607015e-34, lightSpeed = 299'792'458;
-    return nm * 1e-9 / (planck * lightSpeed);
+    return nm * 1e-9 / (planckConstant * speedOfLight);
 }
 
 /// Pieces between `separator`, but for those inside parentheses.

@@ -3,6 +3,7 @@
 #include "spectrum/curve.h"
 #include "spectrum/curve_body.h"
 #include "spectrum/gauss.h"
+#include "spectrum/si.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,8 +41,8 @@ struct Gaussian final : Curve::Body {
 
 /// Planck's law. With x = c₂/(λT) the radiance per wavelength is c₁ λ⁻⁵ / (eˣ − 1).
 struct Blackbody final : Curve::Body {
-    // CODATA 2018 (exact): 2hc² in W·m²·sr⁻¹, hc/k in m·K; Wien's displacement at x = 4.965…
-    static constexpr double c1 = 1.191042972397188e-16, c2 = 1.438776877503933e-2, xPeak = 4.965114231744276;
+    // 2hc² in W·m²·sr⁻¹; Wien's displacement at x = 4.965…
+    static constexpr double c1 = 1.191042972397188e-16, c2 = secondRadiation, xPeak = 4.965114231744276;
     static constexpr double xSteep = 10;  // above it e⁻ˣ rules: cuts go by x; below, by ln λ
     static constexpr double stepX = 0.5, stepLog = 0.05;
     static constexpr double xDark = 709;  // eˣ overflows, nothing is left
