@@ -1,6 +1,7 @@
 #include "cli/options.h"
 
 #include "base/files.h"
+#include "base/limits.h"
 #include "base/text.h"
 
 #include <CLI/CLI.hpp>
@@ -14,9 +15,6 @@ namespace spectrad {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr int largestSide = 65536;  // pixels (docs/format.md, "Limits")
-constexpr int mostSamples = 64;
 
 Only parseOnly(const std::string& text) {
     if (text == "reflection") return Only::reflection;
@@ -158,7 +156,7 @@ RenderSettings renderSettings(const SceneArguments& arguments) {
             asUsage("--projection", [&] { return parseProjection(arguments.projection, {}); });
     if (!arguments.size.empty()) settings.size = parseSize("--size", arguments.size);
     if (!arguments.samples.empty())
-        settings.samples = parseCount("--samples", arguments.samples, 1, mostSamples);
+        settings.samples = parseCount("--samples", arguments.samples, 1, maxSamples);
     if (!arguments.only.empty()) settings.only = parseOnly(arguments.only);
     settings.camera = arguments.camera;
     settings.pass = arguments.pass;

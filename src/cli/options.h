@@ -34,7 +34,7 @@ auto asUsage(const std::string& option, Parse parse) {
 [[nodiscard]] double parseNumber(const std::string& option, std::string_view text, double least, double most);
 /// A whole number within [least, most], likewise.
 [[nodiscard]] int parseCount(const std::string& option, std::string_view text, int least, int most);
-/// "1280x720": both sides 1…65536.
+/// "1280x720": both sides 1…largestSide.
 [[nodiscard]] std::pair<int, int> parseSize(const std::string& option, std::string_view text);
 
 /// Pixels to measure: those whose centres lie within `radius` (pixels) of the centre of pixel (x, y), (0,0)

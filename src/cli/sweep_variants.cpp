@@ -1,5 +1,6 @@
 #include "cli/sweep_variants.h"
 
+#include "base/limits.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -36,7 +37,7 @@ Region parseRegion(const std::string& text) {
         for (const std::string_view piece : split(std::string_view(text).substr(equals + 1), ','))
             numbers.push_back(parseInteger(piece).value_or(-1));
     if (numbers.size() != 4 || *std::min_element(numbers.begin(), numbers.end()) < 0 || numbers[2] == 0 ||
-        numbers[3] == 0 || *std::max_element(numbers.begin(), numbers.end()) > 65'536 || equals == 0)
+        numbers[3] == 0 || *std::max_element(numbers.begin(), numbers.end()) > largestSide || equals == 0)
         throw UsageError("--region: '" + text + "' is not NAME=X,Y,WIDTH,HEIGHT in pixels, (0,0) top left");
     Region region;
     region.name = text.substr(0, equals);

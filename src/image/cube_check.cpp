@@ -1,5 +1,6 @@
 #include "image/cube_check.h"
 
+#include "base/limits.h"
 #include "base/machine.h"
 #include "base/text.h"
 
@@ -14,13 +15,12 @@ namespace spectrad {
 
 void checkCubeInfo(const CubeInfo& info, const std::filesystem::path& file) {
     const SourceLocation where{file.string()};
-    constexpr size_t mostBands = 10000;
     if (info.width < 1 || info.height < 1)
         throw InputError(
             where, fmt::format("a size of {}x{} pixels (allowed: at least 1x1)", info.width, info.height));
     const std::vector<double>& nm = info.wavelengths.nm;
-    if (nm.empty() || nm.size() > mostBands)
-        throw InputError(where, fmt::format("{} bands (allowed: 1 to {})", nm.size(), mostBands));
+    if (nm.empty() || nm.size() > maxBands)
+        throw InputError(where, fmt::format("{} bands (allowed: 1 to {})", nm.size(), maxBands));
     for (size_t j = 0; j < nm.size(); ++j) {
         if (!std::isfinite(nm[j]) || nm[j] <= 0)
             throw InputError(where, fmt::format("a wavelength of {} nm (allowed: above 0)", shortest(nm[j])));

@@ -1,5 +1,6 @@
 #include "image/envi_raster.h"
 
+#include "base/limits.h"
 #include "base/text.h"
 #include "image/cube_check.h"
 #include "image/envi_units.h"
@@ -168,12 +169,12 @@ std::optional<int> bytesOfType(long long dataType) {
 
 Raster rasterFrom(const Header& header, const std::filesystem::path& file, Notes& notes) {
     const SourceLocation where{file.string()};
-    constexpr long long mostPixels = std::numeric_limits<std::int32_t>::max(), mostBands = 10000;
+    constexpr long long mostPixels = std::numeric_limits<std::int32_t>::max();
     refuseOtherFiles(header);
     Raster raster;
     raster.info.width = static_cast<int>(header.integer("samples", 1, mostPixels));
     raster.info.height = static_cast<int>(header.integer("lines", 1, mostPixels));
-    const auto bands = static_cast<size_t>(header.integer("bands", 1, mostBands));
+    const auto bands = static_cast<size_t>(header.integer("bands", 1, maxBands));
     raster.offset = static_cast<std::uint64_t>(
         header.integer("header offset", 0, std::numeric_limits<long long>::max() / 2, 0));
     raster.dataType = static_cast<int>(header.integer("data type", 1, 15));

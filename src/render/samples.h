@@ -1,14 +1,13 @@
 // Where samples lie in a pixel.
 #pragma once
 
+#include "base/limits.h"
 #include "types.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace spectrad {
-
-inline constexpr int maxSamples = 64;
 
 /// Offsets in SD_SUBPIXEL-ths of a pixel, 0…255: a rank-1 lattice whose points are as far apart as such a
 /// lattice allows (seen as tiling the plane); one sample is the pixel's centre. Images have 1…maxSamples.

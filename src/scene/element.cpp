@@ -1,5 +1,6 @@
 #include "scene/element.h"
 
+#include "base/limits.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -100,8 +101,8 @@ std::pair<int, int> Element::pixels(const char* attribute, std::pair<int, int> f
     const auto width = sides.size() == 2 ? parseInteger(sides[0]) : std::nullopt;
     const auto height = sides.size() == 2 ? parseInteger(sides[1]) : std::nullopt;
     if (!width || !height) fail(attribute, "expected WIDTHxHEIGHT in pixels, as in 1280x720");
-    if (*width < 1 || *height < 1 || *width > maxPixels || *height > maxPixels)
-        fail(attribute, fmt::format("each side has 1 to {} pixels", maxPixels));
+    if (*width < 1 || *height < 1 || *width > largestSide || *height > largestSide)
+        fail(attribute, fmt::format("each side has 1 to {} pixels", largestSide));
     return {static_cast<int>(*width), static_cast<int>(*height)};
 }
 

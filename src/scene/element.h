@@ -53,7 +53,7 @@ class Element {
                                               std::initializer_list<size_t> counts) const;
     [[nodiscard]] Vec3 vector(const char* attribute, Vec3 fallback) const;
     [[nodiscard]] bool boolean(const char* attribute, bool fallback) const;
-    /// "1280x720", each side 1 to maxPixels.
+    /// "1280x720", each side 1 to largestSide.
     [[nodiscard]] std::pair<int, int> pixels(const char* attribute, std::pair<int, int> fallback) const;
     /// "36x24", each above 0.
     [[nodiscard]] std::pair<double, double> sides(const char* attribute) const;
@@ -85,8 +85,5 @@ class Element {
     const XmlDocument* document_;
     pugi::xml_node node_;
 };
-
-/// Largest number of pixels on a side.
-inline constexpr int maxPixels = 65'536;
 
 }  // namespace spectrad

@@ -1,5 +1,6 @@
 #include "scene/graft.h"
 
+#include "base/limits.h"
 #include "base/text.h"
 #include "scene/graft_materials.h"
 
@@ -75,7 +76,8 @@ Camera cameraOf(const ImportedCamera& from, const SourceLocation& where) {
     camera.toNode = from.toNode;
     camera.where = where;
     if (from.aspect > 0)
-        camera.width = static_cast<int>(std::clamp(std::round(camera.height * from.aspect), 1.0, 65536.0));
+        camera.width =
+            static_cast<int>(std::clamp<double>(std::round(camera.height * from.aspect), 1, largestSide));
     return camera;
 }
 

@@ -1,4 +1,5 @@
 // <region> and <sweep>.
+#include "base/limits.h"
 #include "base/text.h"
 #include "scene/reading.h"
 
@@ -21,10 +22,10 @@ Region readRegion(const Reading& reading, const Element& element) {
     const std::vector<double> numbers = element.numbers("rect", {4});
     for (size_t i = 0; i < numbers.size(); ++i)
         if (numbers[i] != static_cast<int>(numbers[i]) || numbers[i] < (i < 2 ? 0 : 1) ||
-            numbers[i] > maxPixels)
+            numbers[i] > largestSide)
             element.fail("rect", fmt::format("expected x y width height in whole pixels, (0,0) top left, "
                                              "sides of 1 to {}",
-                                             maxPixels));
+                                             largestSide));
     region.rect = {static_cast<int>(numbers[0]), static_cast<int>(numbers[1]), static_cast<int>(numbers[2]),
                    static_cast<int>(numbers[3])};
     return region;

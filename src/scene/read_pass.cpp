@@ -1,4 +1,5 @@
 // <pass>: what is rendered, and into which file or texture.
+#include "base/limits.h"
 #include "base/text.h"
 #include "scene/amounts.h"
 #include "scene/pass_needs.h"
@@ -13,8 +14,6 @@ namespace spectrad {
 
 namespace {
 
-/// Most samples a pixel may have.
-constexpr int maxSamples = 64;
 /// Most generations of a pass that sees itself.
 constexpr int maxGenerations = 1000;
 

@@ -1,5 +1,6 @@
 #include "spectrum/wavelengths.h"
 
+#include "base/limits.h"
 #include "base/text.h"
 
 #include <fmt/format.h>
@@ -12,16 +13,15 @@ namespace spectrad {
 
 namespace {
 
-constexpr size_t mostBands = 10'000;
 constexpr double shortestNm = 1, longestNm = 1e6;  // 1 nm to 1 mm
 constexpr std::array<std::string_view, 3> projectionNames{"slit", "box", "point"};
 constexpr std::string_view allowedForms =
     "(allowed: from:to:step, as in 380:780:5, or a list, as in 400,405.2,410)";
 
 void checkCount(double count, const SourceLocation& where) {
-    if (count > static_cast<double>(mostBands))
+    if (count > static_cast<double>(maxBands))
         throw InputError(where,
-                         fmt::format("{:.0f} wavelengths, more than the limit of {}", count, mostBands));
+                         fmt::format("{:.0f} wavelengths, more than the limit of {}", count, maxBands));
 }
 
 void checkRange(double nm, const SourceLocation& where) {
