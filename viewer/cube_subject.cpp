@@ -212,8 +212,7 @@ const CubeSubject::Plane& CubeSubject::plane(size_t band) {
         made.values.insert(made.values.end(), values, values + across);
     }
     std::vector<double> sorted(made.values.begin(), made.values.end());
-    constexpr double share = 0.99;  // as exposure's
-    made.top = quantile(sorted, share);
+    made.top = quantile(sorted, exposedQuantile);
     if (!(made.top > 0)) made.top = *std::max_element(sorted.begin(), sorted.end());
     constexpr size_t kept = 3;
     if (planes_.size() >= kept) planes_.erase(planes_.begin());
@@ -231,8 +230,7 @@ void CubeSubject::showBands(BandPicture& picture, Codes& codes) {
         for (size_t i = 0; i < codes.size(); ++i) {
             const double signal = static_cast<double>(source.values[i]) / picture.white[c];
             codes[i] |= std::uint32_t{encoder(signal)} << (8 * c);
-            constexpr double tolerance = 1e-4;  // as for colours
-            if (signal < -tolerance || signal > 1 + tolerance) codes[i] &= 0xfeffffffu;
+            if (signal < -signalTolerance || signal > 1 + signalTolerance) codes[i] &= 0xfeffffffu;
         }
     }
 }

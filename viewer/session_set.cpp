@@ -42,8 +42,6 @@ Value oneOf(const std::string& name, const std::string& value,
                                  didYouMean(value, names)));
 }
 
-constexpr double mostStops = 1000;
-
 }  // namespace
 
 void Session::setLightSpectrum(size_t light, const std::string& spectrum) {

@@ -11,8 +11,7 @@ double meteredBy(const FilmProjection& film, const ChannelImage& channels, const
     if (isPlace(white)) return film.metered(whiteOfImage(white, channels).xyz[1]);
     if (const std::optional<Triple> stated = parseXyz(white)) return (*stated)[1];
     std::vector<double> green = channels.plane[1];
-    constexpr double share = 0.99;
-    const double light = green.empty() ? 0 : film.metered(quantile(green, share));
+    const double light = green.empty() ? 0 : film.metered(quantile(green, exposedQuantile));
     return light > 0 ? light : 1;
 }
 

@@ -27,7 +27,6 @@ struct ObserveArguments {
 };
 
 Exposure parseExposure(const std::string& text) {
-    constexpr double mostStops = 1000;
     if (text == "auto") return {0, true};
     return {parseNumber("--exposure", text, -mostStops, mostStops), false};
 }

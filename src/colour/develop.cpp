@@ -23,7 +23,7 @@ double displayWhiteLuminance(const ChannelImage& xyz, const DevelopSettings& set
     double luminance = settings.white.xyz[1];
     if (!settings.white.hasLuminance || settings.exposure.automatic) {
         std::vector<double> y = xyz.plane[1];
-        luminance = y.empty() ? 0 : quantile(y, 0.99);
+        luminance = y.empty() ? 0 : quantile(y, exposedQuantile);
         if (!(luminance > 0) && !y.empty()) luminance = *std::max_element(y.begin(), y.end());
         if (!(luminance > 0)) luminance = 1;
     }
@@ -37,8 +37,6 @@ Matrix3 developMatrix(const DevelopSettings& settings, double whiteLuminance) {
 }
 
 DevelopedPicture develop(const ChannelImage& xyz, const DevelopSettings& settings) {
-    constexpr double tolerance =
-        1e-4;  // a thirtieth of an 8-bit code at mid-grey: what rounding alone may exceed the range by
     DevelopedPicture picture;
     picture.width = xyz.width;
     picture.height = xyz.height;
@@ -50,7 +48,7 @@ DevelopedPicture develop(const ChannelImage& xyz, const DevelopSettings& setting
         const Triple signal = toSignals * xyz.triple(i);
         bool outside = false;
         for (size_t c = 0; c < 3; ++c) {
-            outside = outside || signal[c] < -tolerance || signal[c] > 1 + tolerance;
+            outside = outside || signal[c] < -signalTolerance || signal[c] > 1 + signalTolerance;
             picture.rgb[3 * i + c] = encoder(signal[c]);
         }
         if (outside) ++picture.clipped;

@@ -12,6 +12,13 @@
 
 namespace spectrad {
 
+/// Of an image without a stated luminance, this quantile of Y is shown as display white.
+inline constexpr double exposedQuantile = 0.99;
+inline constexpr double mostStops = 1000;  ///< of exposure, either way
+/// By how much a display signal may exceed 0…1 and not count as outside: a thirtieth of an 8-bit code at
+/// mid-grey, what rounding alone may do.
+inline constexpr double signalTolerance = 1e-4;
+
 /// FORMAT, "observe": which luminance is shown as display white.
 struct Exposure {
     double ev = 0;           ///< stops; each halves the luminance that is shown as white
@@ -30,12 +37,12 @@ struct DevelopedPicture {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgb;  ///< interleaved, row 0 on top
     double whiteLuminance = 0;      ///< cd/m² that is shown as display white
-    std::uint64_t clipped = 0;      ///< pixels with a channel below 0 or above 1 by more than 1e-4
+    std::uint64_t clipped = 0;      ///< pixels with a channel below 0 or above 1 by more than signalTolerance
     [[nodiscard]] double clippedShare() const;
 };
 
-/// The luminance, cd/m², that becomes display white: the white's own, or the 99th percentile of Y; × 2^−EV.
-/// An image whose 99th percentile is black counts by its brightest pixel, an all-black one as 1 cd/m². Within
+/// The luminance, cd/m², that becomes display white: the white's own, or the exposedQuantile of Y; × 2^−EV.
+/// An image where that is black counts by its brightest pixel, an all-black one as 1 cd/m². Within
 /// 1e-300…1e300, so that its reciprocal exists.
 [[nodiscard]] double displayWhiteLuminance(const ChannelImage& xyz, const DevelopSettings& settings);
 

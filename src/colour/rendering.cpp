@@ -59,7 +59,6 @@ Matrix3 renderingMatrix(const Rendering& rendering, double whiteLuminance) {
 }
 
 ShownSignals shownSignals(Triple signals, const Display& display, Tone tone, GamutMapping gamut) {
-    constexpr double tolerance = 1e-4;  // as develop()
     const auto luminanceOf = [&] { return (display.toXyz * signals)[1]; };
     if (tone == Tone::reinhard) {
         const double factor = toneFactor(luminanceOf());
@@ -67,7 +66,7 @@ ShownSignals shownSignals(Triple signals, const Display& display, Tone tone, Gam
             s *= factor;
     }
     const auto [least, most] = std::minmax_element(signals.begin(), signals.end());
-    ShownSignals shown{signals, luminanceOf(), *least<-tolerance, *most> 1 + tolerance};
+    ShownSignals shown{signals, luminanceOf(), *least<-signalTolerance, *most> 1 + signalTolerance};
     const double share = gamut == GamutMapping::desaturate ? desaturation(signals, shown.luminance) : 0;
     for (double& s : shown.signals)
         s = std::clamp(s + share * (std::clamp(shown.luminance, 0.0, 1.0) - s), 0.0, 1.0);
