@@ -1,6 +1,7 @@
 #include "base/files.h"
 
 #include "base/error.h"
+#include "base/text.h"
 
 #include <nettle/sha2.h>
 
@@ -131,6 +132,10 @@ void PendingFile::commit() {
     if (::rename(pending_.c_str(), target_.c_str()) != 0)
         throw MachineError("cannot write '" + target_.string() + "': " + std::strerror(errno));
     committed_ = true;
+}
+
+std::string extensionOf(const fs::path& path) {
+    return lowerCase(path.extension().string());
 }
 
 bool isFile(const fs::path& path) {

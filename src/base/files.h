@@ -37,6 +37,8 @@ class PendingFile {
 /// Removes the pending files of this process; async-signal-safe, for the program's signal handlers.
 void removePendingFiles() noexcept;
 
+/// The extension in lower case: ".exr" of "a/B.EXR".
+[[nodiscard]] std::string extensionOf(const std::filesystem::path& path);
 /// False for what is not there or cannot be asked about, too.
 [[nodiscard]] bool isFile(const std::filesystem::path& path);
 /// Whole file; throws InputError when it cannot be read, or is larger than `limit` bytes (names both

@@ -16,6 +16,12 @@ namespace spectrad {
 [[nodiscard]] std::vector<std::string_view> words(std::string_view text);
 [[nodiscard]] bool startsWith(std::string_view text, std::string_view start);
 
+/// A–Z as a–z, whatever the locale.
+[[nodiscard]] std::string lowerCase(std::string_view text);
+/// Bytes of the UTF-8 character at `at`, or 0 if there is none (overlong forms and surrogates are none; RFC
+/// 3629).
+[[nodiscard]] size_t utf8Length(std::string_view text, size_t at);
+
 /// The whole text as a finite decimal number (optional sign, no hex, no inf/nan), or nothing.
 [[nodiscard]] std::optional<double> parseDouble(std::string_view text);
 [[nodiscard]] std::optional<long long> parseInteger(std::string_view text);

@@ -182,11 +182,4 @@ void requireOther(const std::string& option, const fs::path& target, const fs::p
         throw UsageError(option + ": '" + target.string() + "' is the file that is read");
 }
 
-std::string extensionOf(const fs::path& path) {
-    std::string extension = path.extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return extension;
-}
-
 }  // namespace spectrad

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "base/files.h"  // extensionOf
 #include "render/settings.h"
 #include "scene/load.h"
 
@@ -68,7 +69,5 @@ void requireWritable(const std::filesystem::path& target);
 /// Throws UsageError if `target` is `input` itself.
 void requireOther(const std::string& option, const std::filesystem::path& target,
                   const std::filesystem::path& input);
-/// The extension in lower case: ".exr".
-[[nodiscard]] std::string extensionOf(const std::filesystem::path& path);
 
 }  // namespace spectrad

@@ -75,13 +75,6 @@ bool isKnownUnit(std::string_view unit) {
 
 }  // namespace
 
-std::string lowerCase(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return lower;
-}
-
 Header Header::parse(std::string_view text, const std::filesystem::path& file) {
     Header header;
     header.file_ = file.string();

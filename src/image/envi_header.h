@@ -53,8 +53,6 @@ class Header {
 [[nodiscard]] std::string encoded(std::string_view text);
 [[nodiscard]] std::string decoded(std::string_view text);
 
-[[nodiscard]] std::string lowerCase(std::string_view text);
-
 }  // namespace envi
 
 }  // namespace spectrad

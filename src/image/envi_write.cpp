@@ -103,8 +103,7 @@ std::string headerText(const CubeInfo& info, const fs::path& file) {
 namespace {
 
 fs::path dataPath(const fs::path& target) {
-    return envi::lowerCase(target.extension().string()) == ".hdr" ? fs::path(target).replace_extension(".img")
-                                                                  : target;
+    return extensionOf(target) == ".hdr" ? fs::path(target).replace_extension(".img") : target;
 }
 
 class EnviWriter : public CubeWriter {

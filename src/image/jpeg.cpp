@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <csetjmp>
 #include <cstdio>  // jpeglib.h does not include what it needs
@@ -102,9 +101,7 @@ Picture8 readPicture8(const std::filesystem::path& path) {
 }
 
 bool isPictureName(const std::string& name) {
-    std::string extension = std::filesystem::path(name).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    const std::string extension = extensionOf(name);
     return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
 }
 

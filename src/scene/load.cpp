@@ -19,10 +19,7 @@ namespace {
 
 /// Ours by its extension, or by its first element: other formats (COLLADA, X3D …) are XML too.
 bool isOurs(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-    if (extension == ".xml") return true;
+    if (extensionOf(path) == ".xml") return true;
     std::string head(65'536, '\0');
     std::ifstream file(path, std::ios::binary);
     file.read(head.data(), static_cast<std::streamsize>(head.size()));

@@ -6,28 +6,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace spectrad {
 
 namespace {
-
-/// Length of the UTF-8 sequence at `at`, or 0 if there is none (overlong forms are left to pass: nothing here
-/// decodes them).
-size_t utf8Length(std::string_view text, size_t at) {
-    const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char lead = byte(at);
-    const size_t length = lead < 0x80   ? 1
-                          : lead < 0xc2 ? 0
-                          : lead < 0xe0 ? 2
-                          : lead < 0xf0 ? 3
-                          : lead < 0xf5 ? 4
-                                        : 0;
-    if (length == 0 || at + length > text.size()) return 0;
-    for (size_t i = at + 1; i < at + length; ++i)
-        if ((byte(i) & 0xc0) != 0x80) return 0;
-    return length;
-}
 
 bool isUtf8(std::string_view text) {
     for (size_t at = 0; at < text.size();) {
@@ -61,19 +43,13 @@ void readHead(std::string_view comment, std::map<std::string, std::string>& head
     if (!key.empty() && !value.empty()) head.emplace(key, value);
 }
 
-std::string lowered(std::string text) {
-    for (char& c : text)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
-
 bool contains(const std::string& text, std::string_view piece) {
     return text.find(piece) != std::string::npos;
 }
 
 /// The unit that the header gives to the wavelengths where it is not nanometres; "" if it may be.
 std::string_view foreignUnit(const std::string& name) {
-    const std::string text = lowered(name);
+    const std::string text = lowerCase(name);
     if (contains(text, "nm") || contains(text, "nano")) return "";
     if (contains(text, "um") && !contains(text, "num")) return "um";
     if (contains(text, "µm") || contains(text, "μm") || contains(text, "micro")) return "um";
@@ -120,7 +96,7 @@ std::string withDecimalPoint(std::string cell) {
 static bool isNotFinite(const std::string& cell) {
     static constexpr std::array<std::string_view, 6> words{"nan",  "inf",   "infinity",
                                                            "#n/a", "#num!", "#div/0!"};
-    std::string text = lowered(cell);
+    std::string text = lowerCase(cell);
     if (!text.empty() && (text.front() == '+' || text.front() == '-')) text.erase(0, 1);
     return std::find(words.begin(), words.end(), text) != words.end();
 }

@@ -31,6 +31,17 @@ TEST_CASE("A file is written whole and read back") {
     CHECK(filesIn(folder.path()) == 1);
 }
 
+TEST_CASE("A folder, nothing and what lies below a file are no files; extensions are told in lower case") {
+    const TemporaryFolder folder;
+    writeFile(folder.path() / "x.BIN", "1");
+    CHECK(isFile(folder.path() / "x.BIN"));
+    CHECK_FALSE(isFile(folder.path()));
+    CHECK_FALSE(isFile(folder.path() / "y"));
+    CHECK_FALSE(isFile(folder.path() / "x.BIN" / "y"));
+    CHECK(extensionOf(folder.path() / "x.BIN") == ".bin");
+    CHECK(extensionOf("a.b/c").empty());
+}
+
 TEST_CASE("Until it is committed a pending file leaves its target as it was, and afterwards no trace") {
     const TemporaryFolder folder;
     const fs::path target = folder.path() / "out.exr";

@@ -20,6 +20,22 @@ TEST_CASE("Text is trimmed and cut into pieces and words") {
     CHECK_FALSE(startsWith("bl", "blackbody:"));
 }
 
+TEST_CASE("Only letters of ASCII are lowered") {
+    CHECK(lowerCase("AZ az-[@`{ \xc3\x84") == "az az-[@`{ \xc3\x84");
+}
+
+TEST_CASE("UTF-8 is what RFC 3629 says: no overlong forms, no surrogates, nothing beyond U+10FFFF") {
+    CHECK(utf8Length("a", 0) == 1);
+    CHECK(utf8Length("xµ", 1) == 2);
+    CHECK(utf8Length("…", 0) == 3);
+    CHECK(utf8Length("\xf4\x8f\xbf\xbf", 0) == 4);
+    for (const char* wrong : {"\x80", "\xc0\x80", "\xc3", "\xc3(", "\xe0\x9f\xbf", "\xed\xa0\x80", "\xe2\x80",
+                              "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80", "\xff"}) {
+        CAPTURE(wrong);
+        CHECK(utf8Length(wrong, 0) == 0);
+    }
+}
+
 TEST_CASE("A number is the whole text, decimal and finite") {
     CHECK(parseDouble("0.18") == 0.18);
     CHECK(parseDouble(" +1e-3 ") == 1e-3);
