@@ -2,9 +2,9 @@
 
 #include "base/files.h"
 #include "base/text.h"
+#include "cli/json.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -19,9 +19,7 @@ std::string within(const Estimate& e) {
 }
 
 Json described(const Estimate& e) {
-    return {{"value", e.value},
-            {"low", e.low ? Json(*e.low) : Json()},
-            {"high", e.high ? Json(*e.high) : Json()}};
+    return {{"value", e.value}, {"low", orNull(e.low)}, {"high", orNull(e.high)}};
 }
 
 Json described(const Estimates& of) {

@@ -1,16 +1,13 @@
 #include "cli/info_material.h"
 
 #include "base/text.h"
+#include "cli/json.h"
 
 #include <fmt/format.h>
 
 namespace spectrad {
 
 namespace {
-
-Json orNull(const std::optional<double>& value) {
-    return value ? Json(*value) : Json();
-}
 
 Json described(const FluorophoreFigures& f) {
     Json json{{"excitation_peak_nm", orNull(f.excitationPeak)},

@@ -1,6 +1,7 @@
 // spectrad info SPECTRUM: what it is, its range and integral, its colour, and a picture of it.
 #include "base/text.h"
 #include "cli/info.h"
+#include "cli/json.h"
 #include "colour/cct.h"
 #include "colour/colour.h"
 #include "colour/detector.h"
@@ -9,7 +10,6 @@
 #include "spectrum/resolver.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -98,10 +98,6 @@ Summary summarize(const Spectrum& spectrum, const Library& library, const Spectr
     return out;
 }
 
-Json orNull(const std::optional<double>& value) {
-    return value ? Json(*value) : Json();
-}
-
 Json described(const Spectrum& spectrum, const Summary& summary) {
     Json out{{"text", spectrum.text},       {"quantity", name(spectrum.quantity)},
              {"unit", spectrum.unit},       {"relative", spectrum.relative},
@@ -118,8 +114,8 @@ Json described(const Spectrum& spectrum, const Summary& summary) {
                                    {"integral", orNull(channel.integral)}});
     if (summary.light) {
         const LightColour& light = *summary.light;
-        out["light"] = {{"xy", light.xy ? Json(*light.xy) : Json()},
-                        {"uv_prime", light.uv ? Json(*light.uv) : Json()},
+        out["light"] = {{"xy", orNull(light.xy)},
+                        {"uv_prime", orNull(light.uv)},
                         {"cct_K", light.cct ? Json(light.cct->kelvin) : Json()},
                         {"duv", light.cct ? Json(light.cct->duv) : Json()}};
     }

@@ -1,7 +1,7 @@
 // spectrad measure: the spectroradiometer: spectra and colorimetry of places in a cube.
 #include "base/text.h"
 #include "cli/commands.h"
-#include "cli/console.h"
+#include "cli/json.h"
 #include "cli/observation.h"
 #include "cli/options.h"
 #include "colour/cct.h"
@@ -9,7 +9,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -143,11 +142,6 @@ std::vector<Reading> readAll(const MeasureArguments& arguments, const Cube& cube
         if (white) reading.lab = lab(reading.xyz, white->xyz);
     }
     return readings;
-}
-
-template <class T>
-Json orNull(const std::optional<T>& value) {
-    return value ? Json(*value) : Json();
 }
 
 Json described(const Reading& reading, const CubeInfo& info, const std::vector<std::string>& channelNames) {
