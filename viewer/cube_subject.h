@@ -31,8 +31,7 @@ class CubeSubject : public Subject {
     [[nodiscard]] int width() const override { return info().width; }
     [[nodiscard]] int height() const override { return info().height; }
     [[nodiscard]] const Wavelengths& wavelengths() const override { return info().wavelengths; }
-    [[nodiscard]] std::string quantity() const override { return std::string(name(info().kind)); }
-    [[nodiscard]] std::string unit() const override { return std::string(spectrad::unit(info().kind)); }
+    [[nodiscard]] CubeKind kind() const override { return info().kind; }
     void show(const Look& look, const Shown& shown, Codes& codes) override;
     void showMixed(const Look& a, const Look& b, double mix, const Shown& shown, Codes& codes) override;
     [[nodiscard]] ChannelImage xyz(const Look& look) override;

@@ -99,7 +99,7 @@ void drawStatus(Session& session, const PanelState& state, float width, float he
         state.samples > 0
             ? fmt::format("{} sample{}", state.samples, state.samples == 1 ? "" : "s")
             : fmt::format("{} x {} pixels, {} bands, {}", session.about().width(), session.about().height(),
-                          session.about().wavelengths().size(), session.about().quantity());
+                          session.about().wavelengths().size(), name(session.about().kind()));
     if (state.selected)
         line += fmt::format("   {}{}{}", state.selected->node.empty() ? "unnamed node" : state.selected->node,
                             state.selected->material.empty() ? "" : " · ", state.selected->material);

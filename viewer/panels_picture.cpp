@@ -44,7 +44,8 @@ void drawExposure(Session& session, PanelState& state) {
     if (ImGui::Button("auto", {-1, 0})) attempt(state, [&] { session.set("exposure=auto"); });
     const bool bands = session.picture != Picture::observer;
     if (bands)
-        ImGui::TextDisabled("%.4g %s shown as white", session.bands.white[0], session.about().unit().c_str());
+        ImGui::TextDisabled("%.4g %s shown as white", session.bands.white[0],
+                            std::string(unit(session.about().kind())).c_str());
     else if (session.look(session.edited).film)
         ImGui::TextDisabled("of the film; its meter sets the rest");
     else if (session.heldLuminance)

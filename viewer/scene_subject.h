@@ -53,8 +53,7 @@ class SceneSubject : public Subject {
     [[nodiscard]] int width() const override { return width_; }
     [[nodiscard]] int height() const override { return height_; }
     [[nodiscard]] const Wavelengths& wavelengths() const override { return wavelengths_; }
-    [[nodiscard]] std::string quantity() const override { return "radiance"; }
-    [[nodiscard]] std::string unit() const override { return "W.m^-2.sr^-1.nm^-1"; }
+    [[nodiscard]] CubeKind kind() const override { return CubeKind::radiance; }
 
     [[nodiscard]] const Plan& plan() { return live_->plan(); }
     /// How often the materials were planned anew: what a change costs beyond its terms' colours.

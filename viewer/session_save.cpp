@@ -33,7 +33,7 @@ void Session::rethrowFailedSave() {
 }
 
 std::string Session::pinsAsCsv() const {
-    return view::pinsAsCsv(pins, about().wavelengths(), about().quantity(), about().unit());
+    return view::pinsAsCsv(pins, about().wavelengths(), about().kind());
 }
 
 std::string Session::busy() const {

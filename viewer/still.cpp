@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace spectrad::view {
 
 Pin Still::measured(int x, int y) {
@@ -20,25 +22,22 @@ Pin Still::measured(int x, int y) {
     return pin;
 }
 
-std::string pinsAsCsv(const std::vector<Pin>& pins, const Wavelengths& grid, const std::string& quantity,
-                      const std::string& unit) {
-    std::string text = fmt::format("# quantity: {}\n# unit: {}\n", quantity, unit.empty() ? "1" : unit);
+std::string pinsAsCsv(const std::vector<Pin>& pins, const Wavelengths& grid, CubeKind kind) {
+    std::string text =
+        fmt::format("# quantity: {}\n# unit: {}\n", name(kind), unit(kind).empty() ? "1" : unit(kind));
     for (const Pin& pin : pins)
         text += fmt::format("# at {},{}: XYZ {} {} {}\n", pin.x, pin.y, rounded(pin.xyz[0], 6),
                             rounded(pin.xyz[1], 6), rounded(pin.xyz[2], 6));
-    const std::string column = quantity == "radiance"     ? "radiance_W_m2_sr_nm"
-                               : quantity == "irradiance" ? "irradiance_W_m2_nm"
-                                                          : quantity;
     text += "wavelength_nm";
     for (const Pin& pin : pins)
-        text += fmt::format(",{} at {} {}", column, pin.x, pin.y);
+        text += fmt::format(",{} at {} {}", columnName(kind), pin.x, pin.y);
     text += '\n';
-    constexpr int floatDigits = 9;  // enough to read the same float back
     for (size_t band = 0; band < grid.size(); ++band) {
         text += shortest(grid.nm[band]);
         for (const Pin& pin : pins)
-            text +=
-                "," + (band < pin.spectrum.size() ? rounded(pin.spectrum[band], floatDigits) : std::string());
+            text += "," + (band < pin.spectrum.size()
+                               ? rounded(pin.spectrum[band], std::numeric_limits<float>::max_digits10)
+                               : std::string());
         text += '\n';
     }
     return text;

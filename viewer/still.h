@@ -3,6 +3,7 @@
 #pragma once
 
 #include "colour/observe.h"
+#include "image/cube.h"
 #include "spectrum/wavelengths.h"
 
 #include <memory>
@@ -42,8 +43,7 @@ class Still {
     std::shared_ptr<const Eye> eye_;
 };
 
-/// CSV of the pins, as `spectrad measure` prints it. `quantity`, `unit`: of the spectra.
-[[nodiscard]] std::string pinsAsCsv(const std::vector<Pin>& pins, const Wavelengths& grid,
-                                    const std::string& quantity, const std::string& unit);
+/// CSV of the pins, as `spectrad measure` prints it. `kind`: of the spectra.
+[[nodiscard]] std::string pinsAsCsv(const std::vector<Pin>& pins, const Wavelengths& grid, CubeKind kind);
 
 }  // namespace spectrad::view

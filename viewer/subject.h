@@ -5,6 +5,7 @@
 #pragma once
 
 #include "colour/observe.h"
+#include "image/cube.h"
 #include "spectrum/wavelengths.h"
 #include "viewer/still.h"
 #include "viewer/wish.h"
@@ -48,10 +49,8 @@ class Subject {
     [[nodiscard]] virtual int height() const = 0;
     /// The bands of its spectra.
     [[nodiscard]] virtual const Wavelengths& wavelengths() const = 0;
-    /// What its values are: "radiance", "reflectance" …
-    [[nodiscard]] virtual std::string quantity() const = 0;
-    /// "W.m^-2.sr^-1.nm^-1", or nothing for a ratio.
-    [[nodiscard]] virtual std::string unit() const = 0;
+    /// What its values are.
+    [[nodiscard]] virtual CubeKind kind() const = 0;
 
     /// How it is looked at from now on.
     virtual void stand(const Stand&) {}

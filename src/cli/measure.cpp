@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace spectrad {
 
@@ -192,20 +193,6 @@ std::string colorimetry(const Reading& reading, const std::vector<std::string>& 
     return out + "\n";
 }
 
-const char* columnName(CubeKind kind) {
-    switch (kind) {
-        case CubeKind::radiance:
-            return "radiance_W_m2_sr_nm";
-        case CubeKind::irradiance:
-            return "irradiance_W_m2_nm";
-        case CubeKind::reflectance:
-            return "reflectance";
-        case CubeKind::transmittance:
-            return "transmittance";
-    }
-    return "";
-}
-
 void printCsv(const std::vector<Reading>& readings, const CubeInfo& info, const std::string& file,
               const Detector& detector) {
     printText(fmt::format("# measured in: {}\n# quantity: {}\n# unit: {}\n# observer: {}\n", file,
@@ -214,15 +201,14 @@ void printCsv(const std::vector<Reading>& readings, const CubeInfo& info, const 
         printText(colorimetry(reading, detector.channels));
     std::string lines = "wavelength_nm";
     for (const Reading& reading : readings) {
-        lines += std::string(",") + columnName(info.kind);
+        lines += fmt::format(",{}", columnName(info.kind));
         if (readings.size() > 1) lines += fmt::format(" at {} {}", reading.place.x, reading.place.y);
     }
     lines += '\n';
-    constexpr int floatDigits = 9;  // enough to read the same float back
     for (size_t band = 0; band < info.wavelengths.size(); ++band) {
         lines += shortest(info.wavelengths.nm[band]);
         for (const Reading& reading : readings)
-            lines += "," + rounded(reading.bands[band], floatDigits);
+            lines += "," + rounded(reading.bands[band], std::numeric_limits<float>::max_digits10);
         lines += '\n';
     }
     printText(lines);

@@ -22,6 +22,8 @@ enum class CubeKind { radiance, irradiance, reflectance, transmittance };
 [[nodiscard]] std::optional<CubeKind> parseCubeKind(std::string_view text);
 /// The unit of the values, "W.m^-2.sr^-1.nm^-1", "W.m^-2.nm^-1" or "" for a ratio.
 [[nodiscard]] std::string_view unit(CubeKind kind);
+/// The head of a column of such values in a table: "radiance_W_m2_sr_nm".
+[[nodiscard]] std::string_view columnName(CubeKind kind);
 
 struct CubeInfo {
     int width = 0, height = 0;
