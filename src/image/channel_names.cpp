@@ -1,6 +1,7 @@
 #include "image/channel_names.h"
 
 #include "base/text.h"
+#include "image/exr_limits.h"
 #include "spectrum/si.h"
 
 #include <fmt/format.h>
@@ -12,8 +13,6 @@
 namespace spectrad {
 
 namespace {
-
-constexpr size_t longestName = 31;  // bytes; a longer name sets the file's "long names" flag
 
 struct Prefix {
     std::string_view text;

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "image/curves.h"
+#include "image/exr_limits.h"
 #include "image/printable.h"
 
 #include <ImfChannelList.h>
@@ -20,8 +21,6 @@
 namespace spectrad {
 
 namespace {
-
-constexpr size_t longestAttributeName = 31;  // bytes; a longer one sets the file's "long names" flag
 
 /// What the layout says of a unit leaves out the "per nm" that it means; an attribute of ours says it whole.
 struct EmissiveKind {
@@ -107,10 +106,10 @@ std::optional<std::vector<double>> exactWavelengths(const Imf::Header& header,
 
 void addText(Imf::Header& header, const std::string& name, const std::string& value,
              const std::filesystem::path& file) {
-    if (name.empty() || name.size() > longestAttributeName)
+    if (name.empty() || name.size() > longestName)
         throw InputError({file.string()},
                          fmt::format("attribute '{}' has a name of {} bytes (allowed: 1 to {})", name,
-                                     name.size(), longestAttributeName));
+                                     name.size(), longestName));
     if (header.find(name) != header.end())
         throw InputError({file.string()}, fmt::format("attribute '{}' is the file's own", name));
     header.insert(name, Imf::StringAttribute(value));

@@ -15,7 +15,6 @@ constexpr std::uint64_t memoryBudget = std::uint64_t(1) << 30;
 // OpenEXR holds two line buffers a thread, each with a compressor of its own; measured, both take about 2.8
 // times the chunk.
 constexpr double memoryPerBuffer = 2.8;
-constexpr std::uint64_t previewChannels = 3;
 
 constexpr std::array<std::pair<std::string_view, Compression>, 4> compressions{{{"none", Compression::none},
                                                                                 {"zips", Compression::zips},

@@ -4,9 +4,14 @@
 
 #include "image/cube.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace spectrad {
+
+inline constexpr std::size_t previewChannels = 3;  ///< R, G, B, in every cube's file
+/// Bytes of a channel's or an attribute's name; a longer one sets the file's "long names" flag.
+inline constexpr std::size_t longestName = 31;
 
 /// Rows that the compression packs into one chunk: 1, 16 (zip) or 32 (piz).
 [[nodiscard]] int rowsPerChunk(Compression compression);

@@ -22,7 +22,6 @@ namespace spectrad {
 
 namespace {
 
-constexpr size_t previewChannels = 3;
 constexpr std::array<const char*, previewChannels> previewNames{"R", "G", "B"};
 
 /// One part, scan lines from the top. Rows are gathered until every thread has a chunk of its own to

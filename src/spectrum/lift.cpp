@@ -30,14 +30,14 @@ double inverseSigmoid(double s) {
     return rest > 0 ? std::clamp(u / std::sqrt(rest), -saturated, saturated) : std::copysign(saturated, u);
 }
 
+constexpr double labBend = 216.0 / 24389;  ///< below it f of CIE Lab is a line
+
 /// f of CIE Lab (CIE 015:2018, 8.2.1.1) and its derivative.
 double labF(double r) {
-    constexpr double bend = 216.0 / 24389;
-    return r > bend ? std::cbrt(r) : (24389.0 / 27 * r + 16) / 116;
+    return r > labBend ? std::cbrt(r) : (24389.0 / 27 * r + 16) / 116;
 }
 double labSlope(double r) {
-    constexpr double bend = 216.0 / 24389;
-    return r > bend ? 1 / (3 * std::cbrt(r * r)) : 24389.0 / 27 / 116;
+    return r > labBend ? 1 / (3 * std::cbrt(r * r)) : 24389.0 / 27 / 116;
 }
 
 Vector labOf(const Vector& f) {

@@ -7,6 +7,7 @@
 #include "render/renderer.h"
 #include "render/texture.h"
 #include "scene/pass_needs.h"
+#include "spectrum/dispersion.h"
 #include "study/trial.h"
 
 #include <algorithm>
@@ -16,8 +17,6 @@
 namespace spectrad {
 
 namespace {
-
-constexpr double sodium = 589.3;  ///< nm: where an index without dispersion is stated
 
 Spectrum plain(Curve curve, const std::string& text) {
     Spectrum spectrum;
@@ -141,7 +140,7 @@ std::vector<Simpler> simplerScenes(const Scene& scene, const Plan& plan, Texture
     if (has("gloss") && std::any_of(scene.materials.begin(), scene.materials.end(), disperses))
         out.push_back({"gloss dispersion", "the index at 589.3 nm", withEachMaterial(scene, [&](Material& m) {
                            if (disperses(m))
-                               m.gloss->ior.curves = {Curve::constant(m.gloss->ior.curve().at(sodium))};
+                               m.gloss->ior.curves = {Curve::constant(m.gloss->ior.curve().at(sodiumNm))};
                        })});
     return out;
 }

@@ -2,6 +2,7 @@
 
 #include "colour/display.h"
 #include "render/light_groups.h"
+#include "spectrum/dispersion.h"
 #include "spectrum/projection.h"
 
 #include <fmt/format.h>
@@ -13,7 +14,6 @@ namespace spectrad {
 namespace {
 
 constexpr std::array<double, 3> channelNm{400, 500, 600};
-constexpr double sodiumD = 589.3;  // nm: where catalogues give an index
 
 class Translator {
   public:
@@ -112,7 +112,7 @@ void translate(Material& material, Translator& to) {
     if (material.specular)
         material.specular->reflectance.curves = {to.surface(material.specular->reflectance.curve())};
     if (material.gloss)
-        material.gloss->ior.curves = {Curve::constant(material.gloss->ior.curve().at(sodiumD))};
+        material.gloss->ior.curves = {Curve::constant(material.gloss->ior.curve().at(sodiumNm))};
     if (material.conductor) {
         const std::vector<Curve>& nk = material.conductor->ior.curves;
         const Curve facing = Curve::combined({nk.at(0), nk.at(1)}, [](std::span<const double> v) {
