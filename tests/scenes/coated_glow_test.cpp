@@ -236,7 +236,7 @@ TEST_CASE("pairs of nodes are made where the coat asks for them: none for one in
 
 TEST_CASE("what glows under a lamp is not known to be without light: masked and below coats, too") {
     const TemporaryFolder folder;
-    writePng(folder.path() / "mask.png", {2, 1, 1, {0, 255}}, {}, false);
+    writePng(folder.path() / "mask.png", {2, 1, 1, {0, 255}}, {}, {});
     for (const std::string& coat : {std::string(), std::string(R"(<gloss ior="cauchy:1.5,0.02"/>)")}) {
         Notes notes;
         const Plan plan = planOf(loadScene(
