@@ -52,8 +52,10 @@ Cone coneOf(const Light& light) {
     };
     // A hard edge is a ramp over a millionth of the cone, some steps of a float; the power counts it.
     constexpr double sharpest = 1 - 1e-6;
-    const double outer = chord(light.angle / 2);
-    return {outer, std::min(chord(light.angle / 2 * (1 - light.blend)), outer * sharpest)};
+    // Directions are floats: of a narrower cone they would not say what is inside. Its power is all there.
+    constexpr double narrowest = 0.001;
+    const double half = std::max(light.angle, narrowest) / 2, outer = chord(half);
+    return {outer, std::min(chord(half * (1 - light.blend)), outer * sharpest)};
 }
 
 sd_light placed(const Light& light, const Affine& toWorld, const View& view) {

@@ -49,8 +49,8 @@ void setCone(const aiLight& from, const FormatTraits& traits, ImportedLight& to)
     double outer = across * degrees * from.mAngleOuterCone;
     if (inventedPenumbra(from, traits)) outer = inner;
     if (!(outer > 0)) outer = inner;
-    if (!(outer > 0)) return;                                  // the default cone
-    to.angleDegrees = std::clamp(outer, 0.001, across * 180);  // no narrower than a scene's own
+    if (!(outer > 0)) return;  // the default cone
+    to.angleDegrees = std::min(outer, across * 180);
     to.blend = std::isfinite(inner) ? std::clamp(1 - inner / outer, 0.0, 1.0) : 0;
 }
 

@@ -61,8 +61,7 @@ Light readLight(Reading& reading, const Element& element) {
     light.position = reading.position(element, "position", {});
     if (light.type == LightType::spot) {
         light.direction = spotDirection(reading, element, light.position);
-        // Directions are floats: of a narrower cone they would not say what is inside.
-        light.angle = element.number("angle", light.angle, {0.001, 180, true, true});
+        light.angle = element.number("angle", light.angle, {0, 180, false, true});
         light.blend = element.number("blend", light.blend, zeroToOne);
     } else if (light.type == LightType::directional) {
         if (!element.has("direction")) element.fail("of type directional needs the attribute 'direction'");

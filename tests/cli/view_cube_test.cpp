@@ -103,7 +103,7 @@ TEST_CASE("view of a cube says in one line what is wrong") {
     const Outcome outcome =
         run(folder, {"view", "cube.exr", "--offscreen", "x.png", "--script", "script.txt"});
     if (outcome.code == 3) return;  // no OSMesa
-    requireError(outcome, 2, "has no light 'lamp'");
+    requireError(outcome, 1, "script.txt:1:1: the cube has no light 'lamp'");
     const std::string bytes = cli::bytesOf(folder / "cube.exr");
     folder.write("cube.exr", bytes.substr(0, bytes.size() / 2));
     requireError(run(folder, {"view", "cube.exr", "--offscreen", "x.png"}), 1, "cube.exr");

@@ -160,9 +160,9 @@ TEST_CASE("a spot's power is all there, however narrow its cone") {
     // What arrives on a plane across the spot, which stands at 5 m in an oblique direction.
     const Vec3 place{2.1, -1.7, 4.2};
     const double distance = std::sqrt(dot(place, place));
-    for (const double angle : {60.0, 10.0, 1.0, 0.3, 0.1, 0.05, 0.02, 0.01, 0.001}) {
+    for (const double angle : {60.0, 10.0, 1.0, 0.3, 0.1, 0.05, 0.02, 0.01, 0.001, 1e-5}) {
         for (const double blend : {0.0, 0.5}) {
-            const double radius = distance * std::tan(angle / 2 * pi / 180);
+            const double radius = distance * std::tan(std::max(angle, 0.001) / 2 * pi / 180);
             constexpr int size = 160;
             const double height = 2.2 * radius, pixel = height / size;
             RenderSettings settings;
@@ -187,8 +187,4 @@ TEST_CASE("a spot's power is all there, however narrow its cone") {
             CHECK(watts == Approx(100).epsilon(2e-3));
         }
     }
-    CHECK_THROWS_WITH(
-        sceneFrom("<scene version=\"1\"><light type=\"spot\" target=\"0 0 -1\" angle=\"0.0009\" "
-                  "spectrum=\"constant:1\" scale=\"1\"/></scene>"),
-        Catch::Contains("0.001"));
 }
