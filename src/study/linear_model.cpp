@@ -8,6 +8,39 @@
 
 namespace spectrad {
 
+namespace {
+
+/// The first components of the shapes, of unit length, by the smaller of the two matrices of inner products
+/// that have them: a texture has a thousand terms and more.
+std::vector<std::vector<double>> principal(const std::vector<std::vector<double>>& shape, size_t bands,
+                                           size_t count) {
+    const size_t terms = shape.size(), size = std::min(terms, bands);
+    const bool ofTerms = terms <= bands;
+    std::vector<double> products(size * size);
+    for (size_t i = 0; i < size; ++i)
+        for (size_t j = i; j < size; ++j)
+            for (size_t k = 0; k < (ofTerms ? bands : terms); ++k)
+                products[i * size + j] += ofTerms ? shape[i][k] * shape[j][k] : shape[k][i] * shape[k][j];
+    const Eigen eigen = eigenOf(std::move(products), size);
+
+    std::vector<std::vector<double>> basis;
+    for (size_t k = 0; k < std::min(count, size); ++k) {
+        if (eigen.value[k] <= 1e-14 * eigen.value[0]) break;
+        if (!ofTerms) {
+            basis.push_back(eigen.vector[k]);
+            continue;
+        }
+        std::vector<double> component(bands, 0);
+        for (size_t t = 0; t < terms; ++t)
+            for (size_t b = 0; b < bands; ++b)
+                component[b] += eigen.vector[k][t] * shape[t][b] / std::sqrt(eigen.value[k]);
+        basis.push_back(std::move(component));
+    }
+    return basis;
+}
+
+}  // namespace
+
 LinearModel inPrincipalComponents(Plan plan, const DetectorWeights& weights, int count) {
     const size_t bands = plan.terms.bands, terms = plan.terms.count();
     // Terms of a metre from a lamp and of the sun differ by powers of ten: each counts with its shape only.
@@ -20,22 +53,7 @@ LinearModel inPrincipalComponents(Plan plan, const DetectorWeights& weights, int
         for (size_t b = 0; b < bands; ++b)
             shape[t][b] = scale * plan.terms.spectra[t * bands + b];
     }
-    std::vector<double> gram(terms * terms);
-    for (size_t i = 0; i < terms; ++i)
-        for (size_t j = i; j < terms; ++j)
-            for (size_t b = 0; b < bands; ++b)
-                gram[i * terms + j] += shape[i][b] * shape[j][b];
-    const Eigen eigen = eigenOf(std::move(gram), terms);
-
-    std::vector<std::vector<double>> basis;
-    for (size_t k = 0; k < std::min<size_t>(static_cast<size_t>(count), terms); ++k) {
-        if (eigen.value[k] <= 1e-14 * eigen.value[0]) break;
-        std::vector<double> component(bands, 0);
-        for (size_t t = 0; t < terms; ++t)
-            for (size_t b = 0; b < bands; ++b)
-                component[b] += eigen.vector[k][t] * shape[t][b] / std::sqrt(eigen.value[k]);
-        basis.push_back(std::move(component));
-    }
+    const std::vector<std::vector<double>> basis = principal(shape, bands, static_cast<size_t>(count));
     LinearModel model;
     std::vector<float> coefficients;
     for (size_t t = 0; t < terms; ++t) {

@@ -141,10 +141,17 @@ TEST_CASE("a scene with a spectral texture is not told in three numbers") {
 TEST_CASE("a linear model with as many components as spectra is exact; with one less it is not") {
     Plan plan;
     plan.terms.bands = 5;
-    const std::vector<std::vector<float>> spectra{{1, 2, 3, 4, 5}, {5, 1, 0, 1, 5}, {0, 100, 0, 300, 0}};
+    std::vector<std::vector<float>> spectra{{1, 2, 3, 4, 5}, {5, 1, 0, 1, 5}, {0, 100, 0, 300, 0}};
+    if (GENERATE(false, true))  // more terms than bands: mixtures of the same three, as texels are
+        for (int k = 1; k <= 5; ++k) {
+            spectra.emplace_back();
+            for (size_t b = 0; b < 5; ++b)
+                spectra.back().push_back(static_cast<float>(k) * spectra[0][b] + 2 * spectra[1][b] +
+                                         spectra[2][b] / 4);
+        }
     for (const auto& s : spectra)
         plan.terms.spectra.insert(plan.terms.spectra.end(), s.begin(), s.end());
-    plan.terms.preview.resize(9);
+    plan.terms.preview.resize(3 * spectra.size());
     plan.wavelengths.nm = {400, 450, 500, 550, 600};
     DetectorWeights weights;
     weights.weights = {{1, 2, 3, 2, 1}};
