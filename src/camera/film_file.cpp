@@ -130,12 +130,12 @@ Detector detectorOrFilmMeant(const std::string& name, const SpectrumResolver& re
                              const Library& library) {
     try {
         return detectorFor(name, resolver, {});
-    } catch (const InputError& error) {
+    } catch (const UnknownObserver&) {
         std::vector<std::string> films = filmNames(library);
         for (size_t i = films.size(); i-- > 0;)
             films.push_back(films[i].substr(films[i].find('/') + 1));
         const std::string hint = didYouMean(name, films);
-        if (hint.empty() || !startsWith(error.what(), "unknown observer")) throw;
+        if (hint.empty()) throw;
         throw InputError("unknown observer '" + name + "'" + hint);
     }
 }

@@ -68,19 +68,19 @@ ExitCode inform(const InfoArguments& arguments) {
         return ExitCode::ok;
     }
     if (what.empty()) throw UsageError("info needs a SCENE, a CUBE, a SPECTRUM or a FILM, or --list");
-    if (arguments.cost && kindOf(what) != Kind::scene)
+    const Kind kind = kindOf(what);
+    if (arguments.cost && kind != Kind::scene)
         throw UsageError("--cost is for scenes, and '" + what + "' is none");
     if (!arguments.reradiation.empty() || !arguments.output.empty()) {
         if (arguments.reradiation.empty() || arguments.output.empty())
             throw UsageError("--reradiation MATERIAL and -o FILE belong together");
-        if (kindOf(what) != Kind::scene)
-            throw UsageError("--reradiation is for scenes, and '" + what + "' is none");
+        if (kind != Kind::scene) throw UsageError("--reradiation is for scenes, and '" + what + "' is none");
         if (arguments.cost) throw UsageError("--cost and --reradiation do not go together");
         writeReradiation(arguments.scene, arguments.reradiation, arguments.output, arguments.json, console);
         return ExitCode::ok;
     }
-    if (kindOf(what) != Kind::scene) requireNoneOfScenes(arguments, "'" + what + "' is none");
-    switch (kindOf(what)) {
+    if (kind != Kind::scene) requireNoneOfScenes(arguments, "'" + what + "' is none");
+    switch (kind) {
         case Kind::scene:
             if (arguments.cost)
                 printSceneCost(arguments.scene, arguments.json, console);

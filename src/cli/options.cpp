@@ -22,10 +22,6 @@ Only parseOnly(const std::string& text) {
     throw UsageError("--only: '" + text + "' is not known (allowed: reflection, fluorescence)");
 }
 
-}  // namespace
-
-namespace {
-
 /// "a number from 0 to 1", "a number from 0 on": a side at the type's largest value is none.
 template <class Number>
 std::string wanted(const char* what, Number least, Number most) {

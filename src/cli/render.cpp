@@ -234,15 +234,17 @@ void checkSaves(const std::vector<GraphNode>& graph, const Output& output) {
         }
 }
 
-/// Whether double precision judges the image: then what says how is read before hours of rendering.
+/// Whether double precision judges the image.
 bool isJudged(const RenderArguments& arguments) {
-    const bool judged = !arguments.verify.share.empty() || !arguments.tolerance.empty();
-    if (!judged) return false;
+    return !arguments.verify.share.empty() || !arguments.tolerance.empty();
+}
+
+/// What says how it is judged is read before hours of rendering.
+void checkJudgement(const RenderArguments& arguments) {
     if (!arguments.verify.share.empty()) (void)parseShare("--verify", arguments.verify.share);
     if (!arguments.tolerance.empty())
         (void)asUsage("--tolerance", [&] { return parseTolerance(arguments.tolerance); });
     (void)parseSeed(arguments.verify.seed);
-    return true;
 }
 
 /// Settings for --tolerance; changes what is asked for to what was chosen.
@@ -276,6 +278,7 @@ ExitCode render(const RenderArguments& arguments) {
     RenderSettings settings = renderSettings(arguments.scene);
     const std::optional<int> number = deviceNumber(arguments.scene.device);
     const bool isToBeJudged = isJudged(arguments);
+    if (isToBeJudged) checkJudgement(arguments);
     Output output = outputOf(arguments);
     // A device that is asked for is missed at once; that there is none at all, only when the scene is known
     // to be sound.
@@ -431,9 +434,8 @@ void addRender(CLI::App& app, Action& action) {
         "  spectrad render scene.xml --wavelengths 400:700:10 --size 1920x1080 --samples 32 --json\n"
         "  spectrad render scene.xml -o scene.img --projection point");
     command->final_callback([&action, arguments, command] {
-        const bool judged = !arguments->verify.share.empty() || !arguments->tolerance.empty();
         for (const char* option : {"--seed", "--observer"})
-            if (!judged && command->count(option) > 0)
+            if (!isJudged(*arguments) && command->count(option) > 0)
                 throw UsageError(std::string(option) + " needs --verify or --tolerance");
         action = [arguments] { return render(*arguments); };
     });

@@ -1,5 +1,7 @@
 #include "image/envi_units.h"
 
+#include "base/text.h"
+
 #include <array>
 #include <cmath>
 #include <string>
@@ -53,13 +55,13 @@ constexpr unsigned everyPart = 0b1111;
 /// Letters and digits in lower case, every µ (UTF-8's two, Latin-1's one) as u.
 std::string bareOf(std::string_view text) {
     constexpr std::array<std::string_view, 3> micro{"\xc2\xb5", "\xce\xbc", "\xb5"};
+    const std::string lower = lowerCase(text);
     std::string bare;
-    while (!text.empty()) {
+    for (text = lower; !text.empty();) {
         size_t taken = 1;
         char c = text.front();
         for (const std::string_view mu : micro)
             if (text.starts_with(mu)) c = 'u', taken = mu.size();
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
         if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) bare += c;
         text.remove_prefix(taken);
     }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "image/picture.h"
+#include "image/png_errors.h"
 
 #include <fmt/format.h>
 #include <png.h>
@@ -16,9 +17,8 @@ namespace {
 
 /// What libpng is given while it reads; its errors jump out of C code, so nothing in here is made or grown on
 /// that way but the message.
-struct PngInput {
+struct PngInput : PngErrors {
     std::string_view left;
-    std::string error;
 };
 
 void takeBytes(png_structp png, png_bytep data, size_t count) {
@@ -27,13 +27,6 @@ void takeBytes(png_structp png, png_bytep data, size_t count) {
     input.left.copy(reinterpret_cast<char*>(data), count);
     input.left.remove_prefix(count);
 }
-
-void keepError(png_structp png, png_const_charp message) {
-    static_cast<PngInput*>(png_get_error_ptr(png))->error = message;
-    png_longjmp(png, 1);
-}
-
-void ignoreWarning(png_structp, png_const_charp) {}
 
 /// False after an error, as readRows(). Both hold no object with a destructor: libpng leaves them by longjmp.
 bool readHeader(png_structp png, png_infop head) {
@@ -54,8 +47,10 @@ bool readRows(png_structp png, png_bytepp rows) {
 }
 
 PictureValues decodePngValues(std::string_view bytes, const std::string& name) {
-    PngInput input{bytes, {}};
-    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &input, keepError, ignoreWarning);
+    PngInput input;
+    input.left = bytes;
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, static_cast<PngErrors*>(&input),
+                                             keepPngError, ignorePngWarning);
     png_infop head = png ? png_create_info_struct(png) : nullptr;
     const auto fail = [&](const std::string& message) {
         png_destroy_read_struct(&png, &head, nullptr);

@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "image/picture.h"
+#include "image/png_errors.h"
 
 #include <fmt/format.h>
 #include <png.h>
@@ -16,9 +17,8 @@ constexpr size_t longestKeyword = 79;  // of a PNG text
 
 /// What libpng is given while it writes; its errors jump out of C code, so nothing in here is made or grown
 /// on that way but the bytes, whose growth is guarded.
-struct PngOutput {
+struct PngOutput : PngErrors {
     std::string bytes;
-    std::string error;
 };
 
 void appendBytes(png_structp png, png_bytep data, size_t count) {
@@ -31,13 +31,6 @@ void appendBytes(png_structp png, png_bytep data, size_t count) {
     }
     if (!appended) png_error(png, "out of memory");
 }
-
-void keepError(png_structp png, png_const_charp message) {
-    static_cast<PngOutput*>(png_get_error_ptr(png))->error = message;
-    png_longjmp(png, 1);
-}
-
-void ignoreWarning(png_structp, png_const_charp) {}
 
 /// Before the picture's own chunks. libpng 1.6 has no name for cICP before 1.6.45, so it goes as unknown.
 void markColour(png_structp png, png_infop head, const PictureColour& colour) {
@@ -113,7 +106,8 @@ void writePng(const std::filesystem::path& target, const Picture8& picture,
         rows.push_back(const_cast<png_bytep>(picture.pixels.data() + static_cast<size_t>(y) * rowBytes));
 
     PngOutput output;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &output, keepError, ignoreWarning);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, static_cast<PngErrors*>(&output),
+                                              keepPngError, ignorePngWarning);
     png_infop head = png ? png_create_info_struct(png) : nullptr;
     bool encoded = false;
     if (head) {

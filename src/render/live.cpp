@@ -84,6 +84,8 @@ void LiveImage::wear(Plan shading) {
     plan_.defines = std::move(shading.defines);
     plan_.whiteName = std::move(shading.whiteName);
     plan_.white = shading.white;
+    plan_.labWhiteName = std::move(shading.labWhiteName);
+    plan_.labWhite = shading.labWhite;
     current_ = nullptr;
     strips_.clear();
     pipelines_.clear();

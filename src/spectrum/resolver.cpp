@@ -244,9 +244,11 @@ void SpectrumResolver::refuse(std::string_view text, Role role, const SourceLoca
             for (const std::string& name : library_.names())
                 if (name.starts_with(folder)) known.push_back(name.substr(folder.size()));
     if (hint.empty()) hint = didYouMean(text, known);
-    throw InputError(where, fmt::format("unknown {} '{}'{}: neither the scene nor the library has it, "
-                                        "nor is it a file beside the scene",
-                                        observer ? "observer" : "spectrum", text, hint));
+    const std::string message = fmt::format(
+        "unknown {} '{}'{}: neither the scene nor the library has it, nor is it a file beside the scene",
+        observer ? "observer" : "spectrum", text, hint);
+    if (observer) throw UnknownObserver(where, message);
+    throw InputError(where, message);
 }
 
 }  // namespace spectrad

@@ -27,6 +27,12 @@ enum class Role {
     any
 };
 
+/// Nothing is called as an observer is.
+class UnknownObserver : public InputError {
+  public:
+    using InputError::InputError;
+};
+
 class SpectrumResolver {
   public:
     /// Files are looked for beside the scene (`folder`); with `restrictTo` set, no file outside that folder
