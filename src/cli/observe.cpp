@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <utility>
@@ -23,6 +24,7 @@ struct ObserveArguments {
     std::string cube, output, adapt = "cat16", display = "srgb", exposure = "0", degree = "1",
                               tone = "linear", gamut = "clip", gamutMap, seenBy;
     ObserverArguments observer;
+    std::vector<std::string> shaping;  ///< the options given that shape a picture for a display
     bool json = false, quiet = false;
 };
 
@@ -148,6 +150,14 @@ Json writePicture(const ObserveArguments& arguments, Task task, const Observatio
     return out;
 }
 
+/// A detector's own channels are absolute and unadapted; a film's alone know an exposure.
+void sayWhatChannelsIgnore(std::vector<std::string> shaping, bool film, Notes& notes) {
+    if (film) std::erase(shaping, "--exposure");
+    if (!shaping.empty())
+        notes.say(fmt::format("the detector's channels are absolute and unadapted: {} {} a picture only",
+                              fmt::join(shaping, ", "), shaping.size() == 1 ? "shapes" : "shape"));
+}
+
 Json writeChannels(const ObserveArguments& arguments, const Observation& observation,
                    const ChannelImage& channels) {
     const Detector& detector = observation.detector();
@@ -170,6 +180,7 @@ ExitCode observe(const ObserveArguments& arguments) {
     const Cube cube = readCube(arguments.cube, console.notes());
     const bool film = namesFilm(arguments.observer.observer);
     ObserverArguments observer = arguments.observer;
+    if (!task.picture) sayWhatChannelsIgnore(arguments.shaping, film, console.notes());
     if (film) observer.filmStops = std::exchange(task.rendering.base.exposure, Exposure{}).ev;
     const Observation observation(observer, cube.info, console.notes());
     console.printNotes();
@@ -255,7 +266,11 @@ void addObserve(CLI::App& app, Action& action) {
         "  spectrad observe scene.exr -o tungsten.png --white illuminants/A --exposure 1\n"
         "  spectrad observe scene.exr -o wide.png --display p3 --white at:120,80\n"
         "  spectrad observe scene.exr -o cones.exr --observer stockman-sharpe-2");
-    command->final_callback([&action, arguments] { action = [arguments] { return observe(*arguments); }; });
+    command->final_callback([&action, arguments, command] {
+        for (const char* option : {"--adapt", "--degree", "--display", "--exposure", "--tone", "--gamut"})
+            if (command->count(option) > 0) arguments->shaping.emplace_back(option);
+        action = [arguments] { return observe(*arguments); };
+    });
 }
 
 }  // namespace spectrad

@@ -238,6 +238,23 @@ TEST_CASE("observe writes a detector's own channels as EXR") {
     CHECK(cli::fs::file_size(folder / "lms.exr") > 0);
 }
 
+TEST_CASE("observe says which options shape a picture only, where it writes channels") {
+    const Folder folder;
+    writeHalves(folder);
+    const Outcome plain = run(folder, {"observe", "halves.exr", "-o", "xyz.exr", "--white", "illuminants/A"});
+    CHECK(plain.err.find("picture only") == std::string::npos);
+    const std::string before = cli::bytesOf(folder / "xyz.exr");
+    const Outcome shaped = run(folder, {"observe", "halves.exr", "-o", "xyz.exr", "--white", "illuminants/A",
+                                        "--exposure", "1", "--tone", "reinhard"});
+    CHECK(shaped.code == 0);
+    CHECK(shaped.err.find("--exposure, --tone shape a picture only") != std::string::npos);
+    CHECK(cli::bytesOf(folder / "xyz.exr") == before);
+    const Outcome film = run(folder, {"observe", "halves.exr", "-o", "film.exr", "--observer",
+                                      "generic-reversal", "--exposure", "1"});
+    CHECK(film.code == 0);
+    CHECK(film.err.find("picture only") == std::string::npos);
+}
+
 TEST_CASE("observe refuses what it cannot do, and leaves files as they were") {
     const Folder folder;
     writeHalves(folder);
