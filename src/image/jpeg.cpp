@@ -1,7 +1,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
-#include "image/picture.h"
+#include "image/picture_values.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,9 @@
 #include <csetjmp>
 #include <cstdio>  // jpeglib.h does not include what it needs
 #include <jpeglib.h>
-#include <limits>
+#include <map>
+#include <string_view>
+#include <vector>
 
 namespace spectrad {
 
@@ -36,11 +38,14 @@ void refuse(j_common_ptr jpeg, int level) {
     if (level < 0) leave(jpeg);
 }
 
+constexpr int profileMarker = JPEG_APP0 + 2;
+
 /// False after an error. Holds no object with a destructor: libjpeg leaves it by longjmp.
 bool readHeader(jpeg_decompress_struct& jpeg, JpegErrors& errors, const unsigned char* bytes, size_t size) {
     if (setjmp(errors.back) != 0) return false;
     jpeg_create_decompress(&jpeg);
     jpeg_mem_src(&jpeg, bytes, static_cast<unsigned long>(size));
+    jpeg_save_markers(&jpeg, profileMarker, 0xffff);
     jpeg_read_header(&jpeg, TRUE);
     return true;
 }
@@ -56,9 +61,30 @@ bool readRows(jpeg_decompress_struct& jpeg, JpegErrors& errors, unsigned char* p
     return true;
 }
 
+/// An ICC profile lies in as many markers as it needs, each with its number of how many (ICC.1:2022, B.4);
+/// nothing where one of them is missing.
+std::string profileOf(const jpeg_decompress_struct& jpeg) {
+    constexpr std::string_view signature("ICC_PROFILE\0", 12);
+    std::map<unsigned, std::string_view> parts;
+    size_t count = 0;
+    for (auto marker = jpeg.marker_list; marker; marker = marker->next) {
+        const std::string_view data(reinterpret_cast<const char*>(marker->data), marker->data_length);
+        const size_t head = signature.size() + 2;
+        if (marker->marker != profileMarker || data.size() < head || !data.starts_with(signature)) continue;
+        parts[static_cast<unsigned char>(data[head - 2])] = data.substr(head);
+        count = static_cast<unsigned char>(data[head - 1]);
+    }
+    std::string profile;
+    if (parts.size() == count &&
+        (count == 0 || (parts.begin()->first == 1 && parts.rbegin()->first == count)))
+        for (const auto& [number, part] : parts)
+            profile += part;
+    return profile;
+}
+
 }  // namespace
 
-Picture8 decodeJpeg(std::string_view bytes, const std::string& name) {
+PictureValues decodeJpeg(std::string_view bytes, const std::string& name) {
     jpeg_decompress_struct jpeg{};
     JpegErrors errors;
     jpeg.err = jpeg_std_error(&errors.base);
@@ -75,29 +101,23 @@ Picture8 decodeJpeg(std::string_view bytes, const std::string& name) {
         fail("a JPEG of four inks (CMYK) has no colours without their profile (allowed: grey, RGB)");
     jpeg.out_color_space = jpeg.jpeg_color_space == JCS_GRAYSCALE ? JCS_GRAYSCALE : JCS_RGB;
     jpeg.dct_method = JDCT_ISLOW;  // the exact one: the same pixels on every machine
-    Picture8 picture{static_cast<int>(jpeg.image_width),
-                     static_cast<int>(jpeg.image_height),
-                     jpeg.out_color_space == JCS_GRAYSCALE ? 1 : 3,
-                     {}};
+    PictureValues picture;
+    picture.width = static_cast<int>(jpeg.image_width);
+    picture.height = static_cast<int>(jpeg.image_height);
+    picture.channels = jpeg.out_color_space == JCS_GRAYSCALE ? 1 : 3;
+    picture.profile = profileOf(jpeg);
     // A block of 64 pixels takes a bit of a progressive file's scan at the very least: a damaged header
     // claims more.
     const size_t rowBytes = size_t{jpeg.image_width} * static_cast<size_t>(picture.channels);
     if (size_t{jpeg.image_width} * jpeg.image_height / 4096 > bytes.size())
         fail(fmt::format("damaged: {}x{} pixels cannot be in {} bytes", picture.width, picture.height,
                          bytes.size()));
-    picture.pixels.resize(rowBytes * jpeg.image_height);
-    if (!readRows(jpeg, errors, picture.pixels.data(), rowBytes))
+    std::vector<unsigned char> pixels(rowBytes * jpeg.image_height);
+    if (!readRows(jpeg, errors, pixels.data(), rowBytes))
         fail(fmt::format("cannot be read as JPEG: {}", errors.message.data()));
     jpeg_destroy_decompress(&jpeg);
+    picture.values.assign(pixels.begin(), pixels.end());
     return picture;
-}
-
-Picture8 decodePicture(std::string_view bytes, const std::string& name) {
-    return startsWith(bytes, "\xff\xd8\xff") ? decodeJpeg(bytes, name) : decodePng(bytes, name);
-}
-
-Picture8 readPicture8(const std::filesystem::path& path) {
-    return decodePicture(readFile(path), path.string());
 }
 
 bool isPictureName(const std::string& name) {

@@ -1,4 +1,5 @@
-// Pictures for people: 8-bit PNG, and float EXR of a detector's own channels.
+// Pictures for people: 8-bit PNG, and float EXR of a detector's own channels. Reading them is
+// picture_values.h.
 #pragma once
 
 #include <array>
@@ -18,11 +19,11 @@ struct Picture8 {
 };
 
 /// What a picture's numbers mean to who shows it: the chunks of a PNG about colour. Nothing set, nothing
-/// said.
+/// said. The first that is set counts.
 struct PictureColour {
-    bool srgb = false;
     /// ColourPrimaries and TransferCharacteristics of ITU-T H.273, full range (cICP).
     std::optional<std::array<std::uint8_t, 2>> codes{};
+    bool srgb = false;
     std::optional<std::array<double, 8>> chromaticities{};  ///< x, y of white, red, green, blue (cHRM)
     std::optional<double> gamma{};                          ///< light = signal to this power (gAMA)
 };
@@ -31,16 +32,6 @@ struct PictureColour {
 void writePng(const std::filesystem::path& target, const Picture8& picture,
               const std::map<std::string, std::string>& text = {},
               const PictureColour& colour = {.srgb = true});
-/// Its colours in sRGB, as grey, RGB or RGBA, whatever the file's own form: sRGB if it does not say (gAMA is
-/// converted, primaries are not), 16 bits rounded. Throws InputError. Maps are no colours: picture_values.h.
-[[nodiscard]] Picture8 readPng(const std::filesystem::path& path);
-/// The same of a file in memory; `name` is what errors call it.
-[[nodiscard]] Picture8 decodePng(std::string_view bytes, const std::string& name);
-/// As grey or RGB; four inks (CMYK) are refused. Throws InputError, also for a file that ends early.
-[[nodiscard]] Picture8 decodeJpeg(std::string_view bytes, const std::string& name);
-/// PNG or JPEG, whichever the first bytes say.
-[[nodiscard]] Picture8 decodePicture(std::string_view bytes, const std::string& name);
-[[nodiscard]] Picture8 readPicture8(const std::filesystem::path& path);
 /// Whether a file is a picture by its name: .png, .jpg, .jpeg, in any case.
 [[nodiscard]] bool isPictureName(const std::string& name);
 

@@ -2,14 +2,15 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "image/picture.h"
 #include "image/png_errors.h"
 
 #include <fmt/format.h>
 #include <png.h>
 
+#include <array>
 #include <bit>
 #include <csetjmp>
+#include <cstring>
 
 namespace spectrad {
 
@@ -28,9 +29,13 @@ void takeBytes(png_structp png, png_bytep data, size_t count) {
     input.left.remove_prefix(count);
 }
 
+/// libpng 1.6 knows no cICP before 1.6.45: it comes as an unknown chunk, from later ones as well.
+constexpr std::array<png_byte, 5> cicp{'c', 'I', 'C', 'P', 0};
+
 /// False after an error, as readRows(). Both hold no object with a destructor: libpng leaves them by longjmp.
 bool readHeader(png_structp png, png_infop head) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, cicp.data(), 1);
     png_read_info(png, head);
     png_set_expand(png);
     if (std::endian::native == std::endian::little) png_set_swap(png);
@@ -44,6 +49,35 @@ bool readRows(png_structp png, png_bytepp rows) {
     png_read_image(png, rows);
     png_read_end(png, nullptr);
     return true;
+}
+
+/// What chunks before the pixels say.
+PictureColour colourOf(png_structp png, png_infop head) {
+    PictureColour colour;
+    png_unknown_chunkp unknown = nullptr;
+    const int count = png_get_unknown_chunks(png, head, &unknown);
+    for (int i = 0; i < count; ++i)
+        // Primaries, transfer, then 0: no matrix, and 1: full range; a PNG can be nothing else in colours.
+        if (std::memcmp(unknown[i].name, cicp.data(), cicp.size()) == 0 && unknown[i].size == 4 &&
+            unknown[i].data[2] == 0 && unknown[i].data[3] == 1)
+            colour.codes = {unknown[i].data[0], unknown[i].data[1]};
+    int intent = 0;
+    colour.srgb = png_get_sRGB(png, head, &intent) != 0;
+    std::array<double, 8> xy{};
+    if (png_get_cHRM(png, head, &xy[0], &xy[1], &xy[2], &xy[3], &xy[4], &xy[5], &xy[6], &xy[7]) != 0)
+        colour.chromaticities = xy;
+    double signalOfLight = 0;
+    if (png_get_gAMA(png, head, &signalOfLight) != 0 && signalOfLight > 0) colour.gamma = 1 / signalOfLight;
+    return colour;
+}
+
+std::string profileOf(png_structp png, png_infop head) {
+    png_charp name = nullptr;
+    png_bytep bytes = nullptr;
+    png_uint_32 size = 0;
+    int compression = 0;
+    if (png_get_iCCP(png, head, &name, &compression, &bytes, &size) == 0) return {};
+    return {reinterpret_cast<const char*>(bytes), size};
 }
 
 PictureValues decodePngValues(std::string_view bytes, const std::string& name) {
@@ -66,7 +100,10 @@ PictureValues decodePngValues(std::string_view bytes, const std::string& name) {
                           static_cast<int>(png_get_image_height(png, head)),
                           png_get_channels(png, head),
                           static_cast<std::uint16_t>(png_get_bit_depth(png, head) == 16 ? 65535 : 255),
+                          {},
+                          colourOf(png, head),
                           {}};
+    if (!picture.colour.srgb) picture.profile = profileOf(png, head);
     const size_t rowBytes = png_get_rowbytes(png, head), height = static_cast<size_t>(picture.height);
     // deflate makes at most 1032 bytes of one: a damaged header claims more.
     if (rowBytes * height / 4096 > bytes.size())
@@ -90,10 +127,7 @@ PictureValues decodePngValues(std::string_view bytes, const std::string& name) {
 }  // namespace
 
 PictureValues decodeValues(std::string_view bytes, const std::string& name) {
-    if (!bytes.starts_with("\xff\xd8\xff")) return decodePngValues(bytes, name);
-    const Picture8 picture = decodeJpeg(bytes, name);
-    return {
-        picture.width, picture.height, picture.channels, 255, {picture.pixels.begin(), picture.pixels.end()}};
+    return bytes.starts_with("\xff\xd8\xff") ? decodeJpeg(bytes, name) : decodePngValues(bytes, name);
 }
 
 PictureValues readValues(const std::filesystem::path& path) {

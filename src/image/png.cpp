@@ -122,41 +122,4 @@ void writePng(const std::filesystem::path& target, const Picture8& picture,
     writeFile(target, output.bytes);
 }
 
-Picture8 readPng(const std::filesystem::path& path) {
-    return decodePng(readFile(path), path.string());
-}
-
-Picture8 decodePng(std::string_view bytes, const std::string& name) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    const auto check = [&](int done) {
-        if (done != 0) return;
-        const std::string message = image.message;
-        png_image_free(&image);
-        throw InputError({name}, "cannot be read as PNG: " + message);
-    };
-    check(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()));
-    // Without a word about its gamma a file of 16 bits is sRGB as one of 8 is; libpng would take it as
-    // linear.
-    image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
-    const bool alpha = (image.format & PNG_FORMAT_FLAG_ALPHA) != 0,
-               colour = (image.format & PNG_FORMAT_FLAG_COLOR) != 0;
-    image.format = alpha ? PNG_FORMAT_RGBA : colour ? PNG_FORMAT_RGB : PNG_FORMAT_GRAY;
-    Picture8 picture{static_cast<int>(image.width),
-                     static_cast<int>(image.height),
-                     alpha    ? 4
-                     : colour ? 3
-                              : 1,
-                     {}};
-    // deflate makes at most 1032 bytes of one: a damaged header claims more.
-    if (PNG_IMAGE_SIZE(image) / 4096 > bytes.size()) {
-        png_image_free(&image);
-        throw InputError({name}, fmt::format("damaged: {}x{} pixels cannot be in {} bytes", picture.width,
-                                             picture.height, bytes.size()));
-    }
-    picture.pixels.resize(PNG_IMAGE_SIZE(image));
-    check(png_image_finish_read(&image, nullptr, picture.pixels.data(), 0, nullptr));
-    return picture;
-}
-
 }  // namespace spectrad

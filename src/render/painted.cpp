@@ -50,9 +50,9 @@ Curve glowHat(const std::vector<double>& nm, size_t t) {
 }
 
 std::string keyOf(const char* kind, const TextureUse& use) {
-    return fmt::format("{} {} {} {} {} {} {} {} {} {}", kind, use.source, static_cast<int>(use.filter),
-                       use.repeat, use.offset[0], use.offset[1], use.scale[0], use.scale[1],
-                       use.rotateDegrees, fmt::join(use.tint, " "));
+    return fmt::format("{} {} {} {} {} {} {} {} {} {} {}", kind, use.source, use.isPlainSrgb,
+                       static_cast<int>(use.filter), use.repeat, use.offset[0], use.offset[1], use.scale[0],
+                       use.scale[1], use.rotateDegrees, fmt::join(use.tint, " "));
 }
 
 Material withReflectance(const Material& material, Curve reflectance) {

@@ -11,10 +11,6 @@ namespace spectrad {
 
 namespace {
 
-PictureValues valuesOf(const TextureUse& use) {
-    return use.bytes ? decodeValues(*use.bytes, use.source) : readValues(use.source);
-}
-
 Texels emptyLike(const PictureValues& picture, size_t bands) {
     Texels map;
     map.width = picture.width;

@@ -1,18 +1,17 @@
 #include "render/texture.h"
 
 #include "base/text.h"
+#include "image/picture.h"
+#include "render/lifted_picture.h"
 #include "render/plan.h"
 #include "render/resident.h"
-#include "spectrum/lift.h"
 #include "spectrum/mass_matrix.h"
 #include "spectrum/projection.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
-#include <unordered_map>
 
 namespace spectrad {
 
@@ -37,6 +36,14 @@ void noteLost(const TextureUse& use, std::uint64_t lost, size_t of, Notes& notes
     if (lost > 0)
         notes.say(fmt::format("{}: {} of {} reflectances came out below zero between the bands: set to zero",
                               use.source, lost, of));
+}
+
+void noteMissed(const TextureUse& use, const LiftedPicture& lifted, Notes& notes) {
+    if (lifted.missed > 0)
+        notes.say(
+            fmt::format("{}: {} of {} colours are none that a reflectance can have: near ones are shown, "
+                        "at most {} away in CIE Lab",
+                        use.source, lifted.missed, lifted.colours, rounded(lifted.farthest, 3)));
 }
 
 }  // namespace
@@ -111,38 +118,8 @@ bool isPicture(const TextureUse& use) {
     return use.bytes || isPictureName(use.source);
 }
 
-/// Of its file, or the bytes inside a model.
-static Picture8 pictureOf(const TextureUse& use) {
-    return use.bytes ? decodePicture(*use.bytes, use.source) : readPicture8(use.source);
-}
-
-SpectralTexture textureFromPicture(const Picture8& picture, const Library& library,
-                                   const std::array<double, 3>& tint) {
-    SpectralTexture texture;
-    texture.width = picture.width;
-    texture.height = picture.height;
-    texture.nm = regularWavelengths(380, 780, 10, {}).nm;
-    const size_t bands = texture.nm.size(), channels = static_cast<size_t>(picture.channels);
-    const ColourLift lift(library, texture.nm);
-    const auto linear = [](std::uint32_t code) { return linearOfSrgb(code / 255.0); };
-    // Pictures repeat their colours: each is lifted once.
-    std::unordered_map<std::uint32_t, size_t> first;  // where a colour's curve begins, by 0xRRGGBB
-    std::vector<float> curves;
-    texture.texels.reserve(picture.pixels.size() / channels * bands);
-    for (size_t i = 0; i < picture.pixels.size(); i += channels) {
-        const std::uint8_t* p = picture.pixels.data() + i;
-        const std::uint32_t r = p[0], g = channels < 3 ? r : p[1], b = channels < 3 ? r : p[2];
-        const auto [found, isNew] = first.try_emplace(r << 16 | g << 8 | b, curves.size());
-        if (isNew) {
-            const LiftedColour colour =
-                lift.fit({linear(r) * tint[0], linear(g) * tint[1], linear(b) * tint[2]});
-            for (double nm : texture.nm)
-                curves.push_back(static_cast<float>(colour.at(nm)));
-        }
-        const float* curve = curves.data() + found->second;
-        texture.texels.insert(texture.texels.end(), curve, curve + bands);
-    }
-    return texture;
+PictureValues valuesOf(const TextureUse& use) {
+    return use.bytes ? decodeValues(*use.bytes, use.source) : readValues(use.source);
 }
 
 void TextureLoader::checkFits(const TextureUse& use, int width, int height, size_t bands) const {
@@ -181,10 +158,13 @@ SpectralTexture TextureLoader::load(const TextureUse& use) {
                              use.source +
                                  ": a picture has no radiances, so it cannot glow (a spectral cube or "
                                  "a pass can)");
-        const Picture8 picture = pictureOf(use);
-        constexpr size_t liftedBands = 41;
+        const PictureValues picture = atUse(use, [&] { return valuesOf(use); });
         checkFits(use, picture.width, picture.height, liftedBands);
-        texture = textureFromPicture(picture, library_, use.tint);
+        const PictureLight light =
+            use.isPlainSrgb ? PictureLight() : PictureLight(picture, use.source, use.where, notes_);
+        LiftedPicture lifted = atUse(use, [&] { return liftPicture(picture, light, use.tint, library_); });
+        noteMissed(use, lifted, notes_);
+        texture = std::move(lifted.texture);
     } else {
         Notes saidWhenRead;
         const CubeInfo info = atUse(use, [&] { return readCubeInfo(use.source, saidWhenRead); });

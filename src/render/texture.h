@@ -2,7 +2,7 @@
 #pragma once
 
 #include "image/cube.h"
-#include "image/picture.h"
+#include "image/picture_values.h"
 #include "opencl/device.h"
 #include "scene/scene.h"
 #include "spectrum/library.h"
@@ -44,10 +44,8 @@ struct SpectralTexture {
 /// The same of a pass that stays on the device.
 [[nodiscard]] SpectralTexture textureFrom(std::shared_ptr<const ResidentTexels> image, const TextureUse& use,
                                           Notes& notes);
-/// An RGB picture (sRGB), each colour times the tint lifted to a smooth reflectance (see lift.h), on
-/// wavelengths 380:780:10.
-[[nodiscard]] SpectralTexture textureFromPicture(const Picture8& picture, const Library& library,
-                                                 const std::array<double, 3>& tint = {1, 1, 1});
+/// Of its file, or of the bytes inside a model. Throws InputError.
+[[nodiscard]] PictureValues valuesOf(const TextureUse& use);
 [[nodiscard]] bool isPicture(const TextureUse& use);
 
 /// Where textures come from: files here, passes by whoever can render them.

@@ -126,6 +126,7 @@ std::optional<TextureUse> GraftedPictures::use(const ImportedPicture& picture) {
             scene_.filesRead.push_back(use.source);
     }
     use.filter = picture.nearest ? TextureFilter::nearest : TextureFilter::bilinear;
+    use.isPlainSrgb = picture.isPlainSrgb;
     use.repeat = picture.repeat;
     use.offset = picture.offset;
     use.scale = picture.scale;

@@ -21,6 +21,8 @@ struct ImportedPicture {
     std::optional<std::uint32_t> embedded;  ///< instead: index into ImportedScene::pictures
     bool repeat = true;                     ///< beyond 0…1; else the border goes on
     bool nearest = false;
+    bool isPlainSrgb =
+        false;  ///< whatever the picture's file says of its colours, as glTF 2.0 has it (3.8.3)
     std::array<double, 2> offset{0, 0}, scale{1, 1};
     double rotateDegrees = 0;       ///< from u to v
     double amount = 1;              ///< of a normal map: its strength

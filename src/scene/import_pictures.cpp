@@ -118,6 +118,7 @@ std::optional<ImportedPicture> MaterialPictures::read(const aiMaterial& from, ai
     const auto holds = [](int mode) {
         return mode == aiTextureMapMode_Clamp || mode == aiTextureMapMode_Decal;
     };
+    to.isPlainSrgb = traits_.gltf;
     to.repeat = !(holds(u) && holds(v));
     if (to.repeat && (u != aiTextureMapMode_Wrap || v != aiTextureMapMode_Wrap))
         to_.remarks.push_back("picture '" + to.name +

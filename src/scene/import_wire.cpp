@@ -149,6 +149,7 @@ void pictureFields(Wire& wire, AnyPicture& picture) {
     maybe(wire, picture.embedded);
     flag(wire, picture.repeat);
     flag(wire, picture.nearest);
+    flag(wire, picture.isPlainSrgb);
     wire.plain(picture.offset);
     wire.plain(picture.scale);
     wire.plain(picture.rotateDegrees);

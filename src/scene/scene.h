@@ -55,6 +55,7 @@ struct TextureUse {
     std::string source;  ///< file name, or "pass:NAME"
     /// A picture inside a model's file, byte by byte; `source` then only names it.
     std::shared_ptr<const std::string> bytes{};
+    bool isPlainSrgb = false;             ///< a picture whose file is not asked what its colours are
     std::array<double, 3> tint{1, 1, 1};  ///< what the linear sRGB components of a picture are multiplied by
     TextureFilter filter = TextureFilter::bilinear;
     bool repeat = false;  ///< beyond 0…1; else the border goes on

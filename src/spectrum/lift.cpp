@@ -237,7 +237,15 @@ LiftedColour ColourLift::fit(Vector rgb) const {
     for (double component : rgb)
         if (!(component >= 0 && component <= 1))
             throw InputError(fmt::format("linear RGB component {} (allowed: 0 … 1)", shortest(component)));
-    if (rgb[0] == rgb[1] && rgb[1] == rgb[2]) return {{0, 0, inverseSigmoid(rgb[0])}};
+    return fitNearest(rgb).colour;
+}
+
+ColourLift::Nearest ColourLift::fitNearest(const Vector& rgb) const {
+    if (rgb[0] == rgb[1] && rgb[1] == rgb[2]) {
+        const double grey = std::clamp(rgb[0], 0.0, 1.0);
+        return {{{0, 0, inverseSigmoid(grey)}},
+                std::abs(targetLab(rgb)[0] - targetLab({grey, grey, grey})[0])};
+    }
 
     // From the grey of the same luminance (not so dark or bright that its slope vanishes) straight to the
     // colour, in as many steps as it takes: a step that does not arrive is halved.
@@ -262,7 +270,7 @@ LiftedColour ColourLift::fit(Vector rgb) const {
     }
     // At the brim of what surfaces can show the last bit may be out of reach: take what comes nearest.
     if (part < 1) state = approach(state, targetAt(1));
-    return {state.c};
+    return {{state.c}, state.distance()};
 }
 
 }  // namespace spectrad

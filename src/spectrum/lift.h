@@ -36,6 +36,13 @@ class ColourLift {
     /// Fits linear sRGB components in 0…1 by damped Gauss–Newton on the CIE Lab difference under D65; greys
     /// are exact constants. Throws InputError for components outside 0…1.
     [[nodiscard]] LiftedColour fit(std::array<double, 3> linearSrgb) const;
+    struct Nearest {
+        LiftedColour colour;
+        double missed = 0;  ///< ΔE*ab (CIE Lab 1976) under D65 between what was asked for and what it is
+    };
+    /// The same of any finite components, since displays and cameras know colours that sRGB lacks: where no
+    /// reflectance of that form has the colour, what comes near it.
+    [[nodiscard]] Nearest fitNearest(const std::array<double, 3>& linearSrgb) const;
 
   private:
     struct State;

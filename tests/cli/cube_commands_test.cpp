@@ -1,6 +1,6 @@
 // measure, observe, compare and info on cubes whose every value is known.
 #include "cli/support.h"
-#include "image/picture.h"
+#include "support/read_picture.h"
 
 #include <cmath>
 #include <fstream>
@@ -195,7 +195,7 @@ TEST_CASE("observe shows the white as display white, and halves of it as their c
         run(folder, {"observe", "halves.exr", "-o", "x.png", "--white", "at:1,1", "--json"});
     REQUIRE(outcome.code == 0);
     CHECK(outcome.json().at("output") == "x.png");
-    const spectrad::Picture8 picture = spectrad::readPng(folder / "x.png");
+    const spectrad::Picture8 picture = spectrad::readPicture8(folder / "x.png");
     REQUIRE(picture.width == 8);
     REQUIRE(picture.height == 6);
     for (size_t channel = 0; channel < 3; ++channel) {
@@ -205,7 +205,7 @@ TEST_CASE("observe shows the white as display white, and halves of it as their c
     REQUIRE(
         run(folder, {"observe", "halves.exr", "-o", "y.png", "--white", "at:1,1", "--exposure", "-1"}).code ==
         0);
-    CHECK(int(spectrad::readPng(folder / "y.png").pixels[0]) == 188);
+    CHECK(int(spectrad::readPicture8(folder / "y.png").pixels[0]) == 188);
     CHECK(folder.names() == std::vector<std::string>{"halves.exr", "x.png", "y.png"});
 }
 
@@ -307,7 +307,7 @@ TEST_CASE("compare measures a difference that is known, and ends with 1 beyond t
     CHECK(worst > 5);
     CHECK(result.at("deltae00").at("mean").get<double>() == Approx(worst / 48));
     CHECK(result.at("map").at("deltae00_to") == worst);
-    CHECK(spectrad::readPng(folder / "map.png").width == 8);
+    CHECK(spectrad::readPicture8(folder / "map.png").width == 8);
 
     const Outcome beyond = run(folder, {"compare", "a.exr", "b.exr", "--max-deltae", "1"});
     CHECK(beyond.code == 1);

@@ -1,7 +1,7 @@
 // Detectors by every way of naming them, from the command line.
 #include "base/files.h"
 #include "cli/support.h"
-#include "image/picture.h"
+#include "support/read_picture.h"
 
 #include <array>
 #include <cmath>
@@ -87,7 +87,7 @@ TEST_CASE("A film is exposed by the image and projected: brighter scenes look br
             REQUIRE(run(folder, {"observe", "ramp.exr", "-o", "x.png", "-q", "--observer", observer,
                                  "--white", white, "--exposure", exposure})
                         .code == 0);
-            return spectrad::readPng(folder / "x.png").pixels;
+            return spectrad::readPicture8(folder / "x.png").pixels;
         };
         INFO(observer);
         const auto plain = picture("1e5,1e5,1e5", "0"), brighter = picture("1e5,1e5,1e5", "1");
@@ -172,7 +172,7 @@ TEST_CASE("The mean of the image as white makes a flat image grey, and black has
     INFO(grey.err);
     REQUIRE(grey.code == 0);
     CHECK(grey.json().at("white").at("name") == "image");
-    const std::vector<std::uint8_t> rgb = spectrad::readPng(folder / "g.png").pixels;
+    const std::vector<std::uint8_t> rgb = spectrad::readPicture8(folder / "g.png").pixels;
     for (size_t i = 0; i < rgb.size(); i += 3) {
         CHECK(rgb[i] == rgb[i + 1]);
         CHECK(rgb[i + 1] == rgb[i + 2]);
@@ -192,7 +192,7 @@ TEST_CASE("The gamut map marks what the display lacks, in blue below and red abo
     REQUIRE(run(folder, {"observe", "three.exr", "-o", "p.png", "--gamut-map", "m.png", "--white",
                          white + "," + white + "," + white, "-q"})
                 .code == 0);
-    const std::vector<std::uint8_t> map = spectrad::readPng(folder / "m.png").pixels;
+    const std::vector<std::uint8_t> map = spectrad::readPicture8(folder / "m.png").pixels;
     REQUIRE(map.size() == 9);
     CHECK((map[0] == map[1] && map[1] == map[2]));
     CHECK(map[5] > map[4]);

@@ -1,7 +1,7 @@
 // render, and info on scenes: what a script may rely on.
 #include "base/text.h"
 #include "cli/support.h"
-#include "image/picture.h"
+#include "support/read_picture.h"
 
 #include <csignal>
 #include <ctime>
@@ -58,7 +58,7 @@ TEST_CASE("render writes a cube, a preview and a JSON object with the promised k
     CHECK(result.at("triangles") == 2);
     CHECK(result.at("terms") >= 1);
     CHECK(result.at("features").is_array());
-    CHECK(spectrad::readPng(folder / "wall.png").width == 40);
+    CHECK(spectrad::readPicture8(folder / "wall.png").width == 40);
     CHECK(folder.names() == std::vector<std::string>{"wall.exr", "wall.png", "wall.xml"});
 
     const json reading = run(folder, {"measure", "wall.exr", "--at", "20,15,3", "--json"}).json()[0];

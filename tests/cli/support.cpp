@@ -2,8 +2,8 @@
 
 #include "base/files.h"
 #include "base/text.h"
-#include "image/picture.h"
 #include "opencl/device.h"
+#include "support/read_picture.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -109,7 +109,7 @@ std::string bytesOf(const fs::path& path) {
 }
 
 int codesApart(const fs::path& a, const fs::path& b) {
-    const spectrad::Picture8 one = spectrad::readPng(a), two = spectrad::readPng(b);
+    const spectrad::Picture8 one = spectrad::readPicture8(a), two = spectrad::readPicture8(b);
     REQUIRE(one.width == two.width);
     REQUIRE(one.height == two.height);
     REQUIRE(one.channels == two.channels);

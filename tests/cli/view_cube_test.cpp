@@ -1,6 +1,6 @@
 // view of a cube: its pixels are observe's, its meter is measure's.
 #include "cli/support.h"
-#include "image/picture.h"
+#include "support/read_picture.h"
 
 #include <cmath>
 
@@ -51,7 +51,7 @@ TEST_CASE("a radiance cube in the viewer is the picture that observe makes, with
              {"--white", "illuminants/A", "--adapt", "bradford", "--display", "displays/lcd-apple-studio"});
     CHECK(bandsOf(cli::bytesOf(folder / "pins.csv")) ==
           bandsOf(run(folder, {"measure", "cube.exr", "--at", "31,17"}).out));
-    const spectrad::Picture8 band = spectrad::readPng(folder / "band.png");
+    const spectrad::Picture8 band = spectrad::readPicture8(folder / "band.png");
     CHECK(band.pixels[3] == band.pixels[4]);
     CHECK(band.pixels[3] == band.pixels[5]);
     CHECK(codesApart(folder / "band.png", folder / "last.png") > 10);

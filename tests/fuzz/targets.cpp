@@ -3,8 +3,8 @@
 #include "camera/film.h"
 #include "image/bispectral.h"
 #include "image/cube.h"
-#include "image/picture.h"
 #include "image/picture_values.h"
+#include "render/picture_light.h"
 #include "scene/load.h"
 #include "spectrum/detector_product.h"
 #include "spectrum/readers/reader.h"
@@ -142,14 +142,21 @@ void envi(std::string_view bytes) {
     refused([&] { requireSound(readCube(path, notes)); });
 }
 
+/// What a file says of its colours is read as well, and of any value it makes a finite one.
+void requireColours(const PictureValues& picture) {
+    Notes notes;
+    const PictureLight light(picture, "image", {}, notes);
+    for (const double signal : {0.0, 0.3, 1.0})
+        for (const double component : light.linearSrgb({signal, 1 - signal, 0.5}))
+            if (!std::isfinite(component)) broken("a picture with a colour that is not finite");
+}
+
 void png(std::string_view bytes) {
-    const auto path = folder().write("image.png", std::string(bytes));
-    refused([&] { (void)readPng(path); });
-    refused([&] { (void)decodeValues(bytes, "image.png"); });
+    refused([&] { requireColours(decodeValues(bytes, "image.png")); });
 }
 
 void jpeg(std::string_view bytes) {
-    refused([&] { (void)decodeJpeg(bytes, "image.jpg"); });
+    refused([&] { requireColours(decodeJpeg(bytes, "image.jpg")); });
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Panels by hand. "Save": what is clicked is written, under the name that is typed; "Lights": what is chosen
 // shines.
 #include "base/files.h"
+#include "support/read_picture.h"
 #include "viewer/support.h"
 
 #include <catch2/catch.hpp>
@@ -82,7 +83,7 @@ TEST_CASE("the Save panel writes picture, cube, scene and pins under the name in
     const auto path = [&](const char* name) { return desk.folder.path() / name; };
     for (const Place& button : buttons)
         click(desk, button);
-    CHECK(readPng(path("scene-view.png")).width == 700);
+    CHECK(readPicture8(path("scene-view.png")).width == 700);
     Notes notes;
     CHECK(readCube(path("scene-view.exr"), notes).info.height == 1500);
     CHECK_THAT(readFile(path("scene-view.xml")), Catch::Contains("illuminants/A\" intensity=\"300 cd"));

@@ -3,6 +3,7 @@
 
 #include "base/files.h"
 #include "render/renderer.h"
+#include "support/read_picture.h"
 #include "viewer/support.h"
 
 #include <catch2/catch.hpp>
@@ -188,7 +189,7 @@ TEST_CASE("what cannot be saved is refused in one line") {
     CHECK_THROWS_AS(desk.viewer->savePicture(desk.folder.path() / "x.jpg"), UsageError);
     desk.viewer->savePicture(desk.folder.path() / "x.png");
     desk.viewer->showPanels(false);
-    CHECK(readPng(desk.folder.path() / "x.png").pixels == desk.viewer->picture().pixels);
+    CHECK(readPicture8(desk.folder.path() / "x.png").pixels == desk.viewer->picture().pixels);
     for (const char* wrong : {"save", "save picture", "save all x.png"})
         CHECK_THROWS_WITH(view::parseScript(wrong, "s.txt"), Catch::StartsWith("s.txt:1:1: "));
 }

@@ -1,7 +1,8 @@
 // Whatever is done to a file, reading it ends with a cube or with one InputError.
 #include "image/picture.h"
-#include "jpeg_bytes.h"
 #include "samples.h"
+#include "support/jpeg_bytes.h"
+#include "support/read_picture.h"
 
 #include <catch2/catch.hpp>
 
@@ -135,16 +136,16 @@ TEST_CASE("a truncated PNG is an error at every length") {
     for (size_t length = 0; length + 12 < whole.size();
          ++length) {  // without its last, empty chunk it is readable
         writeBytes(folder / "a.png", whole.substr(0, length));
-        CHECK_THROWS_AS(readPng(folder / "a.png"), InputError);
+        CHECK_THROWS_AS(readPicture8(folder / "a.png"), InputError);
     }
 }
 
 TEST_CASE("a truncated JPEG is an error at every length, of one line with its name") {
     const std::string whole = jpegOf(24, 16, 3, [](int x, int y, int c) { return 10 * x + 5 * y + 40 * c; });
-    CHECK(decodePicture(whole, "a.jpg").width == 24);
+    CHECK(decodeJpeg(whole, "a.jpg").width == 24);
     for (size_t length = 0; length + 2 < whole.size(); ++length) {  // the last two say that this is the end
         try {
-            (void)decodePicture(whole.substr(0, length), "a.jpg");
+            (void)decodeJpeg(whole.substr(0, length), "a.jpg");
             FAIL("read at " << length << " of " << whole.size() << " bytes");
         } catch (const InputError& error) {
             CHECK(std::string(error.what()).find("a.jpg") == 0);

@@ -1,8 +1,9 @@
 #include "image/picture.h"
 #include "image/picture_values.h"
-#include "jpeg_bytes.h"
-#include "png_bytes.h"
 #include "samples.h"
+#include "support/jpeg_bytes.h"
+#include "support/png_bytes.h"
+#include "support/read_picture.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -24,7 +25,7 @@ TEST_CASE("a PNG comes back with the same pixels, in grey, RGB and RGBA") {
     for (size_t i = 0; i < picture.pixels.size(); ++i)
         picture.pixels[i] = static_cast<std::uint8_t>(i * 37);
     writePng(folder / "a.png", picture);
-    const Picture8 back = readPng(folder / "a.png");
+    const Picture8 back = readPicture8(folder / "a.png");
     CHECK(back.width == 7);
     CHECK(back.height == 5);
     CHECK(back.channels == channels);
@@ -35,7 +36,7 @@ TEST_CASE("a PNG comes back with the same pixels, in grey, RGB and RGBA") {
 TEST_CASE("a JPEG's pixels come back within what its best quality keeps, in grey and RGB") {
     const int channels = GENERATE(1, 3);
     const auto value = [](int x, int y, int c) { return 20 + 6 * x + 3 * y + 20 * c; };
-    const Picture8 back = decodePicture(jpegOf(17, 11, channels, value), "a.jpg");
+    const PictureValues back = decodeValues(jpegOf(17, 11, channels, value), "a.jpg");
     REQUIRE(back.width == 17);
     REQUIRE(back.height == 11);
     REQUIRE(back.channels == channels);
@@ -45,7 +46,7 @@ TEST_CASE("a JPEG's pixels come back within what its best quality keeps, in grey
             for (int c = 0; c < channels; ++c)
                 worst = std::max(
                     worst,
-                    std::abs(back.pixels[static_cast<size_t>((y * 17 + x) * channels + c)] - value(x, y, c)));
+                    std::abs(back.values[static_cast<size_t>((y * 17 + x) * channels + c)] - value(x, y, c)));
     CHECK(worst <= 2);
 }
 
@@ -103,19 +104,37 @@ TEST_CASE("a map that is damaged is an error at every length, and one of too man
     CHECK_THROWS_WITH(decodeValues(wide, "a.png"), Contains("cannot be in"));
 }
 
-TEST_CASE("a picture's colours are sRGB in 8 bits and 16, unless the file says another gamma") {
-    const auto first = [](const PngForm& form, int value) {
-        return int(decodePng(pngOf(4, 4, form, [value](int, int, int) { return value; }), "a.png").pixels[0]);
+TEST_CASE("what a PNG says of its colours is read beside its values") {
+    const auto read = [](const PngForm& form) {
+        return decodeValues(pngOf(4, 4, form, [](int, int, int) { return 5; }), "a.png");
     };
-    for (const int channels : {1, 3, 4})
-        for (const int value : {0, 10, 64, 128, 188, 254, 255}) {
-            CAPTURE(channels, value);
-            CHECK(first({8, channels}, value) == value);
-            CHECK(first({16, channels}, value * 257) == value);
-        }
-    // Linear values; libpng takes sRGB's curve as a power of 2.2: 188 would be right.
-    CHECK(first({8, 3, false, 1.0}, 128) == 186);
-    CHECK(first({16, 3, false, 1.0}, 128 * 257) == 186);
+    const PictureColour silent = read({8, 3}).colour;
+    CHECK((!silent.codes && !silent.srgb && !silent.chromaticities && !silent.gamma));
+    CHECK(read({16, 3, false, 1.0}).colour.gamma.value() == Approx(1));
+    CHECK(read({8, 1, false, 1 / 1.8}).colour.gamma.value() == Approx(1.8).epsilon(1e-4));
+    PngForm form{8, 3};
+    form.chromaticities = {{0.3457, 0.3585, 0.7347, 0.2653, 0.1596, 0.8404, 0.0366, 0.0001}};
+    form.codes = {{12, 13}};
+    const PictureColour all = read(form).colour;
+    for (size_t i = 0; i < 8; ++i)
+        CHECK(all.chromaticities.value()[i] == Approx((*form.chromaticities)[i]).margin(1e-5));
+    CHECK(all.codes.value() == *form.codes);
+    const Folder folder;
+    writePng(folder / "s.png", {1, 1, 3, {1, 2, 3}});
+    CHECK(readValues(folder / "s.png").colour.srgb);
+}
+
+TEST_CASE("a JPEG's ICC profile is read from as many markers as it has, if none is missing") {
+    std::string profile(1000, 'p');
+    for (size_t i = 0; i < profile.size(); ++i)
+        profile[i] = static_cast<char>(i * 7);
+    const auto grey = [](int, int, int) { return 77; };
+    for (const size_t size : {2000u, 1000u, 400u, 7u})
+        CHECK(decodeValues(jpegOf(8, 8, 1, grey, profile, size), "a.jpg").profile == profile);
+    CHECK(decodeValues(jpegOf(8, 8, 1, grey), "a.jpg").profile.empty());
+    std::string broken = jpegOf(8, 8, 1, grey, profile, 400);
+    broken[broken.find("ICC_PROFILE") + 12] = 9;  // the first part calls itself the ninth
+    CHECK(decodeValues(broken, "a.jpg").profile.empty());
 }
 
 TEST_CASE("a PNG says that it is sRGB, unless it is not, and holds its texts") {
@@ -126,7 +145,7 @@ TEST_CASE("a PNG says that it is sRGB, unless it is not, and holds its texts") {
     CHECK_THAT(bytes, Contains("sRGB") && Contains("tEXt") && Contains("iTXt") && Contains("λ"));
     writePng(folder / "b.png", picture, {}, {});
     CHECK_THAT(bytesOf(folder / "b.png"), !Contains("sRGB") && !Contains("tEXt"));
-    CHECK(readPng(folder / "b.png").pixels == picture.pixels);
+    CHECK(readPicture8(folder / "b.png").pixels == picture.pixels);
 }
 
 TEST_CASE("a PNG for another display holds its code points, primaries and gamma before its pixels") {
@@ -151,7 +170,7 @@ TEST_CASE("a PNG for another display holds its code points, primaries and gamma 
     CHECK(number("cHRM", 0) == Approx(0.3127));
     CHECK(number("cHRM", 2) == Approx(0.68));
     CHECK(number("cHRM", 7) == Approx(0.06));
-    CHECK(readPng(folder / "p3.png").pixels == picture.pixels);
+    CHECK(readPicture8(folder / "p3.png").pixels == picture.pixels);
 }
 
 TEST_CASE("a picture that is none, or a place that cannot be written, is an error") {
@@ -161,7 +180,7 @@ TEST_CASE("a picture that is none, or a place that cannot be written, is an erro
     CHECK_THROWS_AS(writePng(folder / "a.png", {1, 1, 2, {0, 0}}), InputError);
     CHECK_THROWS_AS(writePng(folder / "a.png", {1, 1, 1, {0}}, {{"", "x"}}), InputError);
     CHECK_THROWS_AS(writePng(folder / "none/a.png", {1, 1, 1, {0}}), MachineError);
-    CHECK_THROWS_AS(readPng(folder / "absent.png"), InputError);
+    CHECK_THROWS_AS(readPicture8(folder / "absent.png"), InputError);
     CHECK(folder.files() == 0);
 }
 

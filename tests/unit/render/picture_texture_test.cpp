@@ -1,11 +1,9 @@
 // Pictures as textures: a colour that becomes a reflectance at 10 nm steps is that colour again under D65.
 #include "colour/colour.h"
-#include "image/picture.h"
-#include "render/texture.h"
+#include "render/lifted_picture.h"
 #include "spectrum/library.h"
 #include "spectrum/lift.h"
 #include "spectrum/projection.h"
-#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 
@@ -47,28 +45,26 @@ TEST_CASE(
     "a picture's colours, as textures lifted at 10 nm, come back under D65 within 0.001 CIEDE2000 over "
     "the whole sRGB cube") {
     // Every 15th of 0 … 255 in each component: 5832 colours, the cube's corners, edges and greys among them.
-    Picture8 picture{18 * 18, 18, 3, {}};
+    PictureValues picture{18 * 18, 18, 3, 255, {}};
     for (int r = 0; r < 18; ++r)
         for (int g = 0; g < 18; ++g)
             for (int b = 0; b < 18; ++b)
                 for (int v : {r, g, b})
-                    picture.pixels.push_back(static_cast<std::uint8_t>(v * 15));
-    const TemporaryFolder folder;
-    writePng(folder.path() / "cube.png", picture);
-    const SpectralTexture texture = textureFromPicture(readPng(folder.path() / "cube.png"), shipped());
+                    picture.values.push_back(static_cast<std::uint16_t>(v * 15));
+    const SpectralTexture texture = liftPicture(picture, PictureLight(), {1, 1, 1}, shipped()).texture;
     REQUIRE(texture.nm.size() == 41);
     const std::vector<Triple> weights = weightsOf(texture.nm);
     Triple white{};
     for (const Triple& w : weights)
         for (size_t c = 0; c < 3; ++c)
             white[c] += w[c];
-    const auto linear = [](std::uint8_t encoded) {
+    const auto linear = [](std::uint16_t encoded) {
         const double v = encoded / 255.0;
         return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
     };
     const Triple srgbWhite = xyzOfLinearSrgb({1, 1, 1});
     double worst = 0, sum = 0;
-    const size_t pixels = picture.pixels.size() / 3;
+    const size_t pixels = picture.values.size() / 3;
     for (size_t i = 0; i < pixels; ++i) {
         Triple xyz{};
         for (size_t t = 0; t < texture.nm.size(); ++t) {
@@ -77,7 +73,7 @@ TEST_CASE(
             for (size_t c = 0; c < 3; ++c)
                 xyz[c] += rho * weights[t][c];
         }
-        const std::uint8_t* p = picture.pixels.data() + 3 * i;
+        const std::uint16_t* p = picture.values.data() + 3 * i;
         const double difference = deltaE00(
             lab(xyz, white), lab(xyzOfLinearSrgb({linear(p[0]), linear(p[1]), linear(p[2])}), srgbWhite));
         worst = std::max(worst, difference);
@@ -93,9 +89,11 @@ TEST_CASE("a picture times a colour is the picture of the products of their line
         const double e = v / 255.0;
         return e <= 0.04045 ? e / 12.92 : std::pow((e + 0.055) / 1.055, 2.4);
     };
-    const SpectralTexture tinted = textureFromPicture({1, 1, 3, {255, 255, 255}}, shipped(),
-                                                      {linear(200), linear(90), linear(30)}),
-                          plain = textureFromPicture({1, 1, 3, {200, 90, 30}}, shipped());
+    const auto lifted = [](std::vector<std::uint16_t> values, const Triple& tint) {
+        return liftPicture({1, 1, 3, 255, std::move(values)}, PictureLight(), tint, shipped()).texture;
+    };
+    const SpectralTexture tinted = lifted({255, 255, 255}, {linear(200), linear(90), linear(30)}),
+                          plain = lifted({200, 90, 30}, {1, 1, 1});
     CHECK(tinted.texels == plain.texels);
     CHECK(plain.texels.front() != plain.texels.back());
 }

@@ -10,9 +10,9 @@
 
 namespace spectrad::test {
 
-/// `value(x, y, channel)`, 0…255; 1 channel grey, 3 RGB, 4 CMYK.
-inline std::string jpegOf(int width, int height, int channels,
-                          const std::function<int(int, int, int)>& value) {
+/// `value(x, y, channel)`, 0…255; 1 channel grey, 3 RGB, 4 CMYK. An ICC profile in parts of `partSize` bytes.
+inline std::string jpegOf(int width, int height, int channels, const std::function<int(int, int, int)>& value,
+                          const std::string& profile = {}, size_t partSize = 65000) {
     jpeg_compress_struct jpeg{};
     jpeg_error_mgr errors{};
     jpeg.err = jpeg_std_error(&errors);
@@ -29,6 +29,13 @@ inline std::string jpegOf(int width, int height, int channels,
     for (int i = 0; i < jpeg.num_components; ++i)  // colours as fine as brightness
         jpeg.comp_info[i].h_samp_factor = jpeg.comp_info[i].v_samp_factor = 1;
     jpeg_start_compress(&jpeg, TRUE);
+    const size_t parts = (profile.size() + partSize - 1) / partSize;
+    for (size_t i = 0; i < parts; ++i) {
+        const std::string marker = std::string("ICC_PROFILE\0", 12) + static_cast<char>(i + 1) +
+                                   static_cast<char>(parts) + profile.substr(i * partSize, partSize);
+        jpeg_write_marker(&jpeg, JPEG_APP0 + 2, reinterpret_cast<const JOCTET*>(marker.data()),
+                          static_cast<unsigned>(marker.size()));
+    }
     std::vector<JSAMPLE> row(static_cast<size_t>(width * channels));
     for (int y = 0; y < height; ++y) {
         for (int i = 0; i < width * channels; ++i)

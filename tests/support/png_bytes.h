@@ -3,6 +3,9 @@
 
 #include <png.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,6 +18,9 @@ struct PngForm {
     int channels = 1;  ///< 1 grey, 2 with alpha, 3 RGB, 4 RGBA
     bool interlaced = false;
     std::optional<double> gamma = {};  ///< of a gAMA chunk: the file's exponent, 1 for linear values
+    std::optional<std::array<double, 8>> chromaticities = {};  ///< cHRM: x, y of white, red, green, blue
+    std::optional<std::array<std::uint8_t, 2>> codes = {};     ///< cICP: primaries and transfer
+    std::string profile = {};                                  ///< iCCP
 };
 
 /// `value(x, y, channel)`, as it shall stand in the file.
@@ -35,6 +41,20 @@ inline std::string pngOf(int width, int height, const PngForm& form,
                  types[form.channels - 1], form.interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (form.gamma) png_set_gAMA(png, head, *form.gamma);
+    if (const auto& xy = form.chromaticities)
+        png_set_cHRM(png, head, (*xy)[0], (*xy)[1], (*xy)[2], (*xy)[3], (*xy)[4], (*xy)[5], (*xy)[6],
+                     (*xy)[7]);
+    if (!form.profile.empty())
+        png_set_iCCP(png, head, "profile", PNG_COMPRESSION_TYPE_BASE,
+                     reinterpret_cast<png_const_bytep>(form.profile.data()),
+                     static_cast<png_uint_32>(form.profile.size()));
+    std::array<png_byte, 4> says{0, 0, 0, 1};
+    png_unknown_chunk cicp{{'c', 'I', 'C', 'P', 0}, says.data(), says.size(), PNG_HAVE_IHDR};
+    if (form.codes) {
+        std::copy(form.codes->begin(), form.codes->end(), says.begin());
+        png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, cicp.name, 1);
+        png_set_unknown_chunks(png, head, &cicp, 1);
+    }
     std::vector<std::vector<png_byte>> rows;
     for (int y = 0; y < height; ++y) {
         std::vector<png_byte>& row = rows.emplace_back();
