@@ -71,7 +71,40 @@ std::string text(double x, double y, const char* anchor, const std::string& word
                        escaped(words));
 }
 
-std::string drawn(const PlotSeries& series, const Axis& x, const Axis& y, const char* colour) {
+/// Names beside points: where there is room for one, or not at all (the pointer finds it).
+class Names {
+  public:
+    explicit Names(const Plot& plot, const Axis& x, const Axis& y) {
+        for (const PlotSeries& series : plot.series)
+            for (const PlotPoint& p : series.points)
+                if (!p.name.empty()) taken_.push_back({x.at(p.x) - 4, y.at(p.y) - 4, 8, 8});
+    }
+    std::string beside(double x, double y, const std::string& name) {
+        constexpr double letter = 6, line = 12;  // px, about
+        const double wide = letter * static_cast<double>(name.size());
+        for (const double down : {-5.0, 14.0, -17.0, 26.0})
+            for (const bool onRight : {true, false}) {
+                const Box box{onRight ? x + 6 : x - 6 - wide, y + down - line + 2, wide, line};
+                if (box.x < left || box.x + wide > width || box.y < top || box.y + line > height - bottom ||
+                    std::any_of(taken_.begin(), taken_.end(), [&](const Box& b) { return b.meets(box); }))
+                    continue;
+                taken_.push_back(box);
+                return text(onRight ? x + 6 : x - 6, y + down, onRight ? "start" : "end", name);
+            }
+        return "";
+    }
+
+  private:
+    struct Box {
+        double x, y, wide, high;
+        [[nodiscard]] bool meets(const Box& b) const {
+            return x < b.x + b.wide && b.x < x + wide && y < b.y + b.high && b.y < y + high;
+        }
+    };
+    std::vector<Box> taken_;
+};
+
+std::string drawn(const PlotSeries& series, const Axis& x, const Axis& y, const char* colour, Names& names) {
     std::string out;
     if (series.joined && series.points.size() > 1) {
         out += fmt::format("<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\" points=\"", colour);
@@ -82,7 +115,7 @@ std::string drawn(const PlotSeries& series, const Axis& x, const Axis& y, const 
     constexpr size_t mostDots = 60;  // a curve of hundreds of points is a line
     if (series.points.size() > mostDots) return out;
     for (const PlotPoint& p : series.points) {
-        if (!p.name.empty()) out += text(x.at(p.x) + 6, y.at(p.y) - 5, "start", p.name);
+        if (!p.name.empty()) out += names.beside(x.at(p.x), y.at(p.y), p.name);
         out += fmt::format(
             "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"><title>{}</title></circle>", x.at(p.x),
             y.at(p.y), colour, escaped(p.label));
@@ -134,9 +167,10 @@ std::string svgOf(const Plot& plot) {
     out +=
         fmt::format("<text transform=\"translate(16 {:.0f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
                     (top + height - bottom) / 2, escaped(plot.yLabel));
+    Names names(plot, x, y);
     for (size_t i = 0; i < plot.series.size(); ++i) {
         const char* colour = colours[i % colours.size()];
-        out += drawn(plot.series[i], x, y, colour);
+        out += drawn(plot.series[i], x, y, colour, names);
         const double line = top + 8 + 17 * static_cast<double>(i);
         out += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"4\" fill=\"{}\"/>", width - right + 16, line,
                            colour) +

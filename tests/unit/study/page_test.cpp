@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace spectrad;
 
 TEST_CASE("base64 as RFC 4648 has it") {
@@ -28,6 +30,27 @@ TEST_CASE("a plot draws every point once, within its frame, zero at the edge of 
     CHECK(svg.find("nan") == std::string::npos);
     CHECK(svg.find("inf") == std::string::npos);
     CHECK(svgOf({}).empty());
+}
+
+TEST_CASE("names beside points stand where there is room, never on each other") {
+    const auto placesOf = [](size_t count) {
+        Plot plot{"", "x", "y", false, false, {{"s", {{0, 0, ""}, {2, 2, ""}}, false}}};
+        for (size_t i = 0; i < count; ++i)
+            plot.series[0].points.push_back({1, 1, "", "name" + std::to_string(i)});
+        const std::string svg = svgOf(plot);
+        std::vector<std::string> places;
+        for (size_t at = svg.find(">name"); at != std::string::npos; at = svg.find(">name", at + 1)) {
+            const size_t begin = svg.rfind("<text", at);
+            places.push_back(svg.substr(begin, at - begin));
+        }
+        return places;
+    };
+    CHECK(placesOf(1).size() == 1);
+    CHECK(placesOf(2).size() == 2);
+    std::vector<std::string> crowd = placesOf(40);
+    CHECK((crowd.size() >= 4 && crowd.size() <= 8));
+    std::sort(crowd.begin(), crowd.end());
+    CHECK(std::adjacent_find(crowd.begin(), crowd.end()) == crowd.end());
 }
 
 TEST_CASE("the page asks nobody for anything and tells each row and what was left out") {
