@@ -121,23 +121,26 @@ std::string spectraPlot(const StudyReport& report, const std::string& light, con
 }
 
 std::string tableOf(const Rows& rows) {
-    std::string out =
-        "<table><tr><th class=word>setting<th class=word>what<th>bands<th>samples<th>ΔE00 mean<th>95 %<th>99 "
-        "%<th>max<th>band error<th>angle, rad<th>render, ms<th>write, ms<th>file, MB</tr>\n";
-    const auto bands = [](const StudyRow& row, double value) {
-        return row.hasBands ? rounded(value, 3) : std::string("–");
-    };
-    for (const StudyRow* row : rows)
-        out += fmt::format(
-            "<tr><td class=word>{}<td "
-            "class=word>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}"
-            "<td>{}</tr>\n",
-            escaped(row->key), escaped(row->what), row->bands, row->samples, rounded(row->deltaMean, 3),
-            rounded(row->deltaP95, 3), rounded(row->deltaP99, 3), rounded(row->deltaMax, 3),
-            bands(*row, row->bandRelativeMax), bands(*row, row->spectralAngleMax),
-            rounded(1e3 * row->renderSeconds, 3),
-            row->fileBytes ? rounded(1e3 * row->writeSeconds, 3) : std::string("–"),
-            row->fileBytes ? rounded(1e-6 * static_cast<double>(row->fileBytes), 3) : std::string("–"));
+    std::string out = "<table><tr><th class=word>setting<th class=word>what";
+    for (const char* head : {"bands", "samples", "ΔE00 mean", "95 %", "99 %", "max", "band error",
+                             "angle, rad", "render, ms", "memory, MB", "write, ms", "file, MB"})
+        out += std::string("<th>") + head;
+    out += "</tr>\n";
+    const auto given = [](bool there, double value) { return there ? rounded(value, 3) : std::string("–"); };
+    for (const StudyRow* row : rows) {
+        out += fmt::format("<tr><td class=word>{}<td class=word>{}<td>{}<td>{}", escaped(row->key),
+                           escaped(row->what), row->bands, row->samples);
+        const bool written = row->fileBytes > 0;
+        for (const std::string& cell :
+             {rounded(row->deltaMean, 3), rounded(row->deltaP95, 3), rounded(row->deltaP99, 3),
+              rounded(row->deltaMax, 3), given(row->hasBands, row->bandRelativeMax),
+              given(row->hasBands, row->spectralAngleMax), rounded(1e3 * row->renderSeconds, 3),
+              given(row->stripBytes > 0, 1e-6 * static_cast<double>(row->stripBytes)),
+              given(written, 1e3 * row->writeSeconds),
+              given(written, 1e-6 * static_cast<double>(row->fileBytes))})
+            out += "<td>" + cell;
+        out += "</tr>\n";
+    }
     return out + "</table>\n";
 }
 
