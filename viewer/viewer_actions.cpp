@@ -1,6 +1,6 @@
 // Scripts: each action played to its end.
 #include "base/files.h"
-#include "render/picture_colour.h"
+#include "image/picture_colour.h"
 #include "viewer/viewer.h"
 
 #include <fmt/format.h>

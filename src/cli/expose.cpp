@@ -9,8 +9,8 @@
 #include "cli/options.h"
 #include "colour/develop.h"
 #include "image/picture.h"
+#include "image/picture_colour.h"
 #include "image/png16.h"
-#include "render/picture_colour.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

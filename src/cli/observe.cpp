@@ -7,7 +7,7 @@
 #include "colour/rendering.h"
 #include "colour/spectral_display.h"
 #include "image/picture.h"
-#include "render/picture_colour.h"
+#include "image/picture_colour.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

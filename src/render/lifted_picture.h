@@ -1,7 +1,7 @@
 // Pictures as textures: each colour becomes a smooth reflectance (spectrum/lift.h).
 #pragma once
 
-#include "render/picture_light.h"
+#include "image/picture_light.h"
 #include "render/texture.h"
 
 #include <array>

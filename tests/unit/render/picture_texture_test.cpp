@@ -97,3 +97,27 @@ TEST_CASE("a picture times a colour is the picture of the products of their line
     CHECK(tinted.texels == plain.texels);
     CHECK(plain.texels.front() != plain.texels.back());
 }
+
+TEST_CASE("colours of 16 bits are kept as fine as they are; those of no reflectance are counted") {
+    const auto lifted = [](const PictureValues& picture) {
+        Notes notes;
+        return liftPicture(picture, {picture, "a.png", {}, notes}, {1, 1, 1}, shipped());
+    };
+    const std::uint16_t base = 128 * 257;
+    const LiftedPicture fine = lifted({4, 1, 1, 65535, {base, base + 1, base + 100, base}});
+    CHECK(fine.colours == 3);
+    CHECK(fine.missed == 0);
+    const auto texel = [&](size_t x) { return fine.texture.texels[x * liftedBands]; };
+    CHECK(texel(0) < texel(1));
+    CHECK(texel(2) == Approx(linearOfSrgb((base + 100) / 65535.0)).epsilon(1e-6));
+    CHECK(texel(3) == texel(0));
+    // Rec. 2020's green and red are nearly pure light; its white and a dull green are reflectances.
+    PictureValues rec2020{4, 1, 3, 255, {0, 255, 0, 255, 0, 0, 255, 255, 255, 60, 100, 60}};
+    rec2020.colour.codes = {{9, 8}};
+    const LiftedPicture wide = lifted(rec2020);
+    CHECK(wide.colours == 4);
+    CHECK(wide.missed == 2);
+    CHECK(wide.farthest > 5);
+    for (const float reflectance : wide.texture.texels)
+        CHECK((reflectance >= 0 && reflectance <= 1));
+}

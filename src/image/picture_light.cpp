@@ -1,4 +1,4 @@
-#include "render/picture_light.h"
+#include "image/picture_light.h"
 
 #include <fmt/format.h>
 

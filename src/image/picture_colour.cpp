@@ -1,4 +1,4 @@
-#include "render/picture_colour.h"
+#include "image/picture_colour.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 // What a picture's numbers are as colours: closed forms of the standards, and ICC profiles made here by
 // Little CMS from the same primaries.
-#include "render/lifted_picture.h"
-#include "render/picture_colour.h"
-#include "spectrum/library.h"
+#include "image/picture_light.h"
+
+#include "image/picture_colour.h"
 #include "support/jpeg_bytes.h"
 #include "support/png_bytes.h"
 
@@ -176,27 +176,4 @@ TEST_CASE("what a file says and nobody understands is warned of, and sRGB taken"
     picture.channels = 1;
     picture.profile = profileOf(srgbDisplay(), 2, 3);
     CHECK_THAT(warned(picture), Contains("not for grey pictures"));
-}
-
-TEST_CASE("colours of 16 bits are kept as fine as they are; those of no reflectance are counted") {
-    const Library library(std::filesystem::path(SPECTRAD_SOURCE) / "spectra");
-    const auto lifted = [&](const PictureValues& picture, const PictureLight& light) {
-        return liftPicture(picture, light, {1, 1, 1}, library);
-    };
-    const std::uint16_t base = 128 * 257;
-    const LiftedPicture fine = lifted({4, 1, 1, 65535, {base, base + 1, base + 100, base}}, PictureLight());
-    CHECK(fine.colours == 3);
-    CHECK(fine.missed == 0);
-    const auto texel = [&](size_t x) { return fine.texture.texels[x * liftedBands]; };
-    CHECK(texel(0) < texel(1));
-    CHECK(texel(2) == Approx(srgbCurve((base + 100) / 65535.0)).epsilon(1e-6));
-    CHECK(texel(3) == texel(0));
-    // Rec. 2020's green and red are nearly pure light; its white and a dull green are reflectances.
-    const LiftedPicture wide = lifted({4, 1, 3, 255, {0, 255, 0, 255, 0, 0, 255, 255, 255, 60, 100, 60}},
-                                      lightOf({.codes = {{9, 8}}}));
-    CHECK(wide.colours == 4);
-    CHECK(wide.missed == 2);
-    CHECK(wide.farthest > 5);
-    for (const float reflectance : wide.texture.texels)
-        CHECK((reflectance >= 0 && reflectance <= 1));
 }
