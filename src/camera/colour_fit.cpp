@@ -3,6 +3,7 @@
 #include "base/cholesky.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace spectrad {
 
@@ -29,12 +30,10 @@ XyzMatrix fittedMatrix(const Detector& camera, const Detector& observer, const C
     };
     const std::vector<double> white = seen(camera, perfect), whiteXyz = seen(observer, perfect);
     static_cast<void>(whiteBalance(white));
-    std::vector<Curve> patches = chart;
-    patches.push_back(perfect);
     std::vector<std::vector<double>> gram(n, std::vector<double>(n));
     std::array<std::vector<double>, 3> target;
     target.fill(std::vector<double>(n));
-    for (const Curve& patch : patches) {
+    for (const Curve& patch : chart) {
         std::vector<double> channels = seen(camera, patch);
         const std::vector<double> xyz = seen(observer, patch);
         for (size_t c = 0; c < n; ++c)
@@ -46,8 +45,19 @@ XyzMatrix fittedMatrix(const Detector& camera, const Detector& observer, const C
                 target[k][r] += channels[r] * xyz[k] / whiteXyz[1];
         }
     }
+    // Rows m with G m = t − μ 1, where Lagrange's μ brings their sum, which is what they make of the white,
+    // to it.
     const Cholesky factor(std::move(gram));
-    return {factor.solve(target[0]), factor.solve(target[1]), factor.solve(target[2])};
+    const std::vector<double> ones = factor.solve(std::vector<double>(n, 1.0));
+    const double sumOfOnes = std::accumulate(ones.begin(), ones.end(), 0.0);
+    const auto row = [&](size_t k) {
+        std::vector<double> m = factor.solve(target[k]);
+        const double missing = whiteXyz[k] / whiteXyz[1] - std::accumulate(m.begin(), m.end(), 0.0);
+        for (size_t c = 0; c < n; ++c)
+            m[c] += missing / sumOfOnes * ones[c];
+        return m;
+    };
+    return {row(0), row(1), row(2)};
 }
 
 }  // namespace spectrad

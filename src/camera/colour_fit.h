@@ -12,9 +12,9 @@ namespace spectrad {
 /// nothing of it.
 [[nodiscard]] std::vector<double> whiteBalance(const std::vector<double>& white);
 
-/// The matrix from balanced channels (white is 1 in each) to XYZ (white at Y = 1) whose squared error over
-/// the patches of a chart under a light is least; patches are reflectances. The white itself counts as one
-/// more patch. Throws InputError for fewer patches than channels.
+/// The matrix from balanced channels (white is 1 in each) to XYZ (white at Y = 1) that takes the white to
+/// itself, so that greys stay grey, and whose squared error over the patches of a chart under a light is
+/// least among those; patches are reflectances. Throws InputError for fewer patches than channels.
 [[nodiscard]] XyzMatrix fittedMatrix(const Detector& camera, const Detector& observer, const Curve& light,
                                      const std::vector<Curve>& chart);
 

@@ -32,13 +32,24 @@ struct Sensor {
     std::uint64_t seed = 1;
 };
 
+/// 1 without bits. Throws InputError for bits without a full well.
+[[nodiscard]] double countsPerElectron(const Sensor& sensor);
+
+struct RawImage {
+    ChannelImage values;
+    std::uint64_t fullPixels = 0;  ///< of which a channel at least held all that the well holds
+};
+
 /// Raw values of a channel image (a detector's linear channels): counts, or electrons where there are no
 /// bits. Channel c of pixel (x, y) draws its noise from (seed, x, y, c) alone. Throws InputError for bits
 /// without a full well.
-[[nodiscard]] ChannelImage expose(const ChannelImage& signals, const Sensor& sensor);
+[[nodiscard]] RawImage expose(const ChannelImage& signals, const Sensor& sensor);
 
 /// Raw values back to electrons above black, per count.
 [[nodiscard]] ChannelImage electronsOf(ChannelImage raw, const Sensor& sensor);
+
+/// What electronsOf() makes of a full pixel; infinite without a full well.
+[[nodiscard]] double fullElectrons(const Sensor& sensor);
 
 /// The mean and variance, in counts, that the chain gives a pixel far from black and full well:
 /// gain·(s + d) + black and gain²·(s + d + r²) + 1/12, with s signal, d dark and r read electrons.

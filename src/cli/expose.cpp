@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace spectrad {
 
@@ -36,7 +37,7 @@ Sensor sensorOf(const ExposeArguments& arguments) {
     constexpr double most = 1e12;
     Sensor sensor;
     Shutter shutter;
-    shutter.fNumber = parseNumber("--f-number", arguments.fNumber, 0.1, 1000);
+    shutter.fNumber = parseNumber("--f-number", arguments.fNumber, 0.5, 1000);
     shutter.seconds = parseNumber("--time", arguments.time, 1e-9, 1e6);
     shutter.pitchMicrometres = parseNumber("--pitch", arguments.pitch, 0.01, 1e5);
     sensor.electronsPerSignal = shutter.electronsPerSignal();
@@ -49,6 +50,8 @@ Sensor sensorOf(const ExposeArguments& arguments) {
     if (!arguments.bits.empty()) sensor.bits = parseCount("--bits", arguments.bits, 1, 16);
     sensor.black = parseNumber("--black", arguments.black, 0, 65535);
     sensor.seed = static_cast<std::uint64_t>(parseCount("--seed", arguments.seed, 0, 2'147'483'647));
+    if (!sensor.bits && sensor.black != 0)
+        throw UsageError("--black is a count: it needs --bits and --full-well");
     if (sensor.bits && !sensor.fullWell)
         throw UsageError("--bits needs --full-well: the electrons that become the last count");
     if (sensor.bits && sensor.black >= std::exp2(*sensor.bits) - 1)
@@ -56,31 +59,49 @@ Sensor sensorOf(const ExposeArguments& arguments) {
     return sensor;
 }
 
+/// What made the raw values, as a camera's file says it.
+std::map<std::string, std::string> takenWith(const ExposeArguments& arguments, const Sensor& sensor) {
+    std::map<std::string, std::string> said{{"observer", arguments.observer.observer},
+                                            {"unit", sensor.bits ? "counts" : "electrons"},
+                                            {"f-number", arguments.fNumber},
+                                            {"time s", arguments.time},
+                                            {"pitch um", arguments.pitch},
+                                            {"read noise electrons", arguments.readNoise},
+                                            {"dark current electrons/s", arguments.darkCurrent},
+                                            {"shot noise", sensor.shotNoise ? "yes" : "no"},
+                                            {"seed", arguments.seed},
+                                            {"cube", arguments.cube},
+                                            {"program", "spectrad " SPECTRAD_VERSION}};
+    if (!arguments.mosaic.empty()) said["mosaic"] = arguments.mosaic;
+    if (sensor.fullWell) said["full well electrons"] = arguments.fullWell;
+    if (sensor.bits) {
+        said["bits"] = arguments.bits;
+        said["black count"] = arguments.black;
+        said["gain counts/electron"] = shortest(countsPerElectron(sensor));
+    }
+    return said;
+}
+
 void writeRaw(const ExposeArguments& arguments, const ChannelImage& raw,
               const std::vector<std::string>& channels, const Sensor& sensor) {
-    const std::string unit = sensor.bits ? "counts" : "electrons";
+    const std::map<std::string, std::string> said = takenWith(arguments, sensor);
     if (extensionOf(arguments.output) == ".exr") {
-        writeChannelsExr(arguments.output, raw.width, raw.height, channels, floatPlanes(raw, channels),
-                         {{"observer", arguments.observer.observer},
-                          {"unit", unit},
-                          {"mosaic", arguments.mosaic},
-                          {"seed", arguments.seed},
-                          {"cube", arguments.cube},
-                          {"program", "spectrad " SPECTRAD_VERSION}});
+        writeChannelsExr(arguments.output, raw.width, raw.height, channels, floatPlanes(raw, channels), said);
         return;
     }
-    Picture16 picture{raw.width, raw.height, static_cast<int>(raw.plane.size()), {}};
+    Picture16 picture{raw.width, raw.height, static_cast<int>(raw.plane.size()), {}, *sensor.bits};
     for (size_t i = 0; i < raw.pixels(); ++i)
         for (const std::vector<double>& plane : raw.plane)
             picture.pixels.push_back(
                 static_cast<std::uint16_t>(std::clamp(std::round(plane[i]), 0.0, 65535.0)));
-    writePng16(arguments.output, picture);
+    writePng16(arguments.output, picture, said);
 }
 
-/// Channels balanced on the white, through the matrix fitted to the chart under it.
+/// Channels balanced on the white, through the matrix fitted to the chart under it. Where one channel is full
+/// all are cut as low: what is brighter than the sensor can tell is white, not the colour of the others.
 DevelopedPicture rendered(const ExposeArguments& arguments, const ChannelImage& electrons,
-                          const Detector& detector, const Curve& light, const Library& library,
-                          const SpectrumResolver& resolver) {
+                          double fullElectrons, const Detector& detector, const Curve& light,
+                          const Library& library, const SpectrumResolver& resolver) {
     const Detector eye = standardObserver(library);
     const Spectrum chart = resolver.resolve(arguments.chart, Role::any, {});
     if (chart.quantity != Quantity::reflectance && chart.quantity != Quantity::unknown)
@@ -91,15 +112,46 @@ DevelopedPicture rendered(const ExposeArguments& arguments, const ChannelImage& 
     const XyzMatrix matrix = fittedMatrix(detector, eye, light, patches);
     const std::array<const Curve*, 1> alone{&light};
     const std::vector<double> white = respond(detector, alone);
+    const double full = fullElectrons / *std::max_element(white.begin(), white.end());
     ChannelImage balanced = electrons;
     for (size_t c = 0; c < white.size(); ++c)
         for (double& value : balanced.plane[c])
-            value /= white[c];
+            value = std::min(value / white[c], full);
     DevelopSettings settings;
     settings.white = {"", respondXyz(eye, alone), false};
     settings.display = displayFor(arguments.display);
     settings.exposure.automatic = true;
     return develop(toXyz(matrix, balanced), settings);
+}
+
+/// Electrons are counted by what says how many a photon frees.
+void requireElectrons(const Detector& detector) {
+    if (!detector.electrons)
+        throw InputError(
+            fmt::format("--observer: '{0}' has no quantum efficiency, so nothing says how many electrons its "
+                        "signal is{1} "
+                        "(a product with one does, as 'qe:sensors/ccd * filters/ir-cut')",
+                        detector.name,
+                        detector.channels == std::vector<std::string>{"R", "G", "B"}
+                            ? fmt::format("; 'qe:{}' takes its curves as one", detector.name)
+                            : ""));
+}
+
+/// The spectrum that the picture is balanced on. Throws InputError where it is not known.
+Spectrum whiteLight(const ExposeArguments& arguments, const CubeInfo& info, const Observation& observation,
+                    const Library& library, const SpectrumResolver& resolver) {
+    if (observation.light()) return *observation.light();
+    const std::string& wanted = arguments.observer.white;
+    if (!wanted.empty()) return resolver.resolve(wanted, Role::light, {});
+    const auto name = info.attributes.find(attribute::white);
+    if (name == info.attributes.end()) return resolver.resolve("constant:1", Role::light, {});
+    if (!info.attributes.contains(attribute::whiteXyz))
+        return resolver.resolve(name->second, Role::light, {});
+    if (auto stated = statedLight(info, standardObserver(library), resolver)) return *stated;
+    throw InputError(
+        fmt::format("the spectrum of the scene's first light, '{}', is not known here: --picture "
+                    "needs --white LIGHT",
+                    name->second));
 }
 
 ExitCode exposeCube(const ExposeArguments& arguments) {
@@ -115,40 +167,55 @@ ExitCode exposeCube(const ExposeArguments& arguments) {
     if (!arguments.picture.empty()) requireWritable(arguments.picture);
     if (namesFilm(arguments.observer.observer))
         throw UsageError("--observer: a film has no counts (observe shows it)");
+    if (!arguments.observer.white.empty() && !namesLight(arguments.observer.white))
+        throw UsageError("--white: a picture's matrix is fitted under a light's spectrum: '" +
+                         arguments.observer.white + "' is none");
 
     Console console(arguments.quiet);
     const Cube cube = readCube(arguments.cube, console.notes());
     if (arguments.picture.empty() && !arguments.observer.white.empty() && !needsLight(cube.info.kind))
         throw UsageError("--white: of a radiance only --picture has a white");
+    if (cube.info.kind == CubeKind::irradiance)
+        throw InputError(arguments.cube + ": an irradiance is no light that a lens sees (radiance is)");
     const Observation observation(arguments.observer, cube.info, console.notes());
     const Detector& detector = observation.detector();
+    requireElectrons(detector);
+    const Library library = Library::open();
+    const SpectrumResolver resolver(library, ".", false, console.notes());
+    std::optional<Spectrum> light;
+    if (!arguments.picture.empty()) light = whiteLight(arguments, cube.info, observation, library, resolver);
     std::optional<Mosaic> mosaic;
     if (!arguments.mosaic.empty()) mosaic.emplace(arguments.mosaic, detector.channels);
     if (extension == ".png" && !mosaic && detector.size() != 1 && detector.size() != 3)
         throw UsageError(fmt::format("-o: a PNG takes 1 or 3 channels, the detector has {} (write .exr)",
                                      detector.size()));
+    if (observation.light())
+        console.notes().say(fmt::format("'{}' lights it with as much as gives a perfect diffuser {} cd/m2",
+                                        observation.light()->text, diffuserY));
+    if (detector.relative)
+        console.notes().say(
+            "of some of the camera's curves only the shape is known: electrons are in proportion, "
+            "not in number");
     const ChannelImage signals = observation.channels(cube);
-    ChannelImage raw = mosaic ? expose(sampled(signals, *mosaic), sensor) : expose(signals, sensor);
-    writeRaw(arguments, raw, mosaic ? std::vector<std::string>{"raw"} : detector.channels, sensor);
+    RawImage raw = mosaic ? expose(sampled(signals, *mosaic), sensor) : expose(signals, sensor);
+    if (raw.fullPixels > 0)
+        console.notes().say(fmt::format("{} of {} pixels are full", raw.fullPixels, signals.pixels()));
+    writeRaw(arguments, raw.values, mosaic ? std::vector<std::string>{"raw"} : detector.channels, sensor);
     Json out{{"output", arguments.output},
              {"unit", sensor.bits ? "counts" : "electrons"},
              {"electrons_per_signal", sensor.electronsPerSignal},
+             {"full_pixels", raw.fullPixels},
+             {"taken_with", takenWith(arguments, sensor)},
              {"channels", mosaic ? std::vector<std::string>{"raw"} : detector.channels}};
     if (!arguments.picture.empty()) {
-        const Library library = Library::open();
-        const SpectrumResolver resolver(library, ".", false, console.notes());
-        const auto name = cube.info.attributes.find(attribute::white);
-        const std::string white = !arguments.observer.white.empty()    ? arguments.observer.white
-                                  : name != cube.info.attributes.end() ? name->second
-                                                                       : "constant:1";
-        const ChannelImage electrons = electronsOf(std::move(raw), sensor);
+        const ChannelImage electrons = electronsOf(std::move(raw.values), sensor);
         const DevelopedPicture picture =
-            rendered(arguments, mosaic ? demosaiced(electrons, *mosaic) : electrons, detector,
-                     resolver.resolve(white, Role::light, {}).curve(), library, resolver);
+            rendered(arguments, mosaic ? demosaiced(electrons, *mosaic) : electrons, fullElectrons(sensor),
+                     detector, light->curve(), library, resolver);
         writePng(arguments.picture, {picture.width, picture.height, 3, picture.rgb},
                  {{"Software", "spectrad " SPECTRAD_VERSION}}, pictureColour(displayFor(arguments.display)));
         out["picture"] = arguments.picture;
-        out["white"] = white;
+        out["white"] = light->text;
     }
     console.printNotes();
     if (arguments.json) printJson(out);
@@ -170,10 +237,10 @@ void addExpose(CLI::App& app, Action& action) {
         ->type_name("RAW.exr|RAW.png")
         ->required();
     command
-        ->add_option(
-            "--observer", arguments->observer.observer,
-            "the camera, as for observe; a quantum efficiency (qe:) makes electrons of its signal; default: "
-            "qe:sensors/ccd behind filters/ir-cut and red, green, blue separation filters")
+        ->add_option("--observer", arguments->observer.observer,
+                     "the camera: a product with a quantum efficiency (electrons per photon), as qe:CURVE or "
+                     "'qe:CURVE * filters/red', or a detector of a scene; default: "
+                     "qe:sensors/ccd behind filters/ir-cut and red, green, blue separation filters")
         ->type_name("NAME|FILE|PRODUCT");
     command->add_option("--f-number", arguments->fNumber, "of the lens; default: 4")->type_name("N");
     command->add_option("--time", arguments->time, "exposure in s; default: 0.01")->type_name("S");
@@ -190,7 +257,8 @@ void addExpose(CLI::App& app, Action& action) {
         ->add_option("--bits", arguments->bits,
                      "quantise: the full well becomes 2^bits - 1; 1 to 16; default: electrons")
         ->type_name("N");
-    command->add_option("--black", arguments->black, "count of no light; default: 0")->type_name("COUNT");
+    command->add_option("--black", arguments->black, "count of no light, with --bits; default: 0")
+        ->type_name("COUNT");
     command
         ->add_option("--seed", arguments->seed,
                      "of the noise; the same seed gives the same bytes; default: 1")
@@ -219,7 +287,8 @@ void addExpose(CLI::App& app, Action& action) {
     command->add_flag("--json", arguments->json, "print a JSON object about what was written");
     command->add_flag("-q,--quiet", arguments->quiet, "no remarks on standard error");
     command->footer(
-        "Electrons are the camera's signal times pi / (4 N^2) x pitch^2 x time. Photons arrive by Poisson's "
+        "Electrons are the camera's signal times pi / (4 N^2) x pitch^2 x time, all over the picture (no "
+        "vignetting; the pitch is --pitch, whatever the scene's camera is). Photons arrive by Poisson's "
         "law, reading adds a "
         "normal error; each pixel and channel draws from the seed by its own number, whatever the order.\n\n"
         "Examples:\n"

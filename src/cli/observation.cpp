@@ -5,11 +5,13 @@
 #include "colour/develop.h"
 #include "colour/image_white.h"
 #include "render/scene_detector.h"
+#include "spectrum/projection.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace spectrad {
@@ -55,6 +57,28 @@ void addObserverOptions(CLI::App& command, ObserverArguments& arguments) {
         ->type_name("LIGHT|XYZ|at:X,Y|image");
 }
 
+/// What a detector would see beyond the bands is missing from its channels: said where it is much.
+static void sayWhatIsOutside(const Detector& detector, const Wavelengths& grid, Notes& notes) {
+    constexpr double much = 0.01;
+    double most = much;
+    size_t worst = detector.size();
+    for (size_t c = 0; c < detector.size(); ++c) {
+        const std::array<const Curve*, 1> alone{&detector.response[c]};
+        const double all = integrate(alone);
+        const double share = all > 0 ? 1 - integrate(alone, grid.nm.front(), grid.nm.back()) / all : 0;
+        if (share > most) most = share, worst = c;
+    }
+    if (worst < detector.size())
+        notes.say(fmt::format(
+            "{} % of what '{}' of {} sees lies outside the cube's {} to {} nm, where it has no light",
+            rounded(100 * most, 2), detector.channels[worst], detector.name, shortest(grid.nm.front()),
+            shortest(grid.nm.back())));
+}
+
+bool namesLight(const std::string& white) {
+    return !white.empty() && !isOfImage(white) && !isNumbers(white);
+}
+
 bool namesFilm(const std::string& observer) {
     return isFilm(observer, Library::open());
 }
@@ -95,12 +119,12 @@ Observation::Observation(const ObserverArguments& arguments, const CubeInfo& inf
         weights_ = weightsOn(info.wavelengths, detector_);
         return;
     }
-    const bool named = !wanted_.empty() && !isOfImage(wanted_) && !isNumbers(wanted_);
-    light_ = resolver_.resolve(named ? wanted_ : daylight, Role::light, {});
+    light_ = resolver_.resolve(namesLight(wanted_) ? wanted_ : daylight, Role::light, {});
     weights_ = weightsOn(info.wavelengths, litBy(*light_, detector_, standard_));
 }
 
 ChannelImage Observation::channels(const Cube& cube) const {
+    sayWhatIsOutside(light_ ? litBy(*light_, detector_, standard_) : detector_, info_.wavelengths, notes_);
     ChannelImage image(cube.info.width, cube.info.height, detector_.size());
     for (int y = 0; y < cube.info.height; ++y)
         observeRow(weights_, cube.row(y, 0), y, image);

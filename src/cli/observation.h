@@ -33,6 +33,8 @@ struct ObserverArguments {
 };
 void addObserverOptions(CLI::App& command, ObserverArguments& arguments);
 
+/// Whether a --white names a light: no numbers, and no place in the image.
+[[nodiscard]] bool namesLight(const std::string& white);
 /// Whether the observer's name means a film.
 [[nodiscard]] bool namesFilm(const std::string& observer);
 

@@ -92,13 +92,14 @@ Json secondLook(const ObserveArguments& arguments, const Task& task, const Rende
         throw InputError("--seen-by: '" + arguments.seenBy + "' is no observer with X, Y, Z");
     const Display display = task.spectral->seenBy(observation.detector());
     ChannelImage own = observation.channels(cube);
-    DevelopSettings settings = task.rendering.base;
-    settings.display = display;
-    settings.white = observation.white(own);
-    // His scene, in the display's XYZ for him: the same adaptation and exposure, but no display in between.
-    const Matrix3 toDisplay = display.toXyz * developMatrix(settings, rendered.picture.whiteLuminance);
+    Rendering his = task.rendering;
+    his.base.display = display;
+    his.base.white = observation.white(own);
+    // His scene, in the display's XYZ for him: the same adaptation, exposure and tone as he sees them, but no
+    // display in between.
+    const Matrix3 toSignals = renderingMatrix(his, displayWhiteLuminance(own, his.base));
     for (size_t i = 0; i < own.pixels(); ++i) {
-        const Triple xyz = toDisplay * own.triple(i);
+        const Triple xyz = display.toXyz * toned(toSignals * own.triple(i), display, his.tone);
         for (size_t k = 0; k < 3; ++k)
             own.plane[k][i] = xyz[k];
     }
@@ -131,8 +132,12 @@ Json writePicture(const ObserveArguments& arguments, Task task, const Observatio
     writePng(arguments.output, {picture.width, picture.height, 3, picture.rgb},
              {{"Software", "spectrad " SPECTRAD_VERSION},
               {"Description",
-               fmt::format("{} seen by {}, white {} at {} cd/m2, {} adaptation, for {}", arguments.cube,
-                           observation.detector().name, white.name, rounded(picture.whiteLuminance, 6),
+               fmt::format("{} seen by {}, white {} at {}, {} adaptation, for {}", arguments.cube,
+                           observation.detector().name, white.name,
+                           observation.light()
+                               ? fmt::format("Y = {}", rounded(picture.whiteLuminance, 6))
+                               : fmt::format("{} {}", rounded(picture.whiteLuminance, 6),
+                                             cube.info.kind == CubeKind::irradiance ? "lx" : "cd/m2"),
                            arguments.adapt, settings.display.name)}},
              colour);
     constexpr double worthSaying = 0.02;  // the percentile of auto exposure alone clips 1 %
@@ -158,11 +163,14 @@ void sayWhatChannelsIgnore(std::vector<std::string> shaping, bool film, Notes& n
                               fmt::join(shaping, ", "), shaping.size() == 1 ? "shapes" : "shape"));
 }
 
-Json writeChannels(const ObserveArguments& arguments, const Observation& observation,
+Json writeChannels(const ObserveArguments& arguments, const Observation& observation, CubeKind kind,
                    const ChannelImage& channels) {
     const Detector& detector = observation.detector();
-    std::string unit = detector.tristimulus ? "cd.m^-2 (Y)"
-                       : detector.luminous  ? fmt::format("cd.m^-2 (V of {})", detector.name)
+    const bool irradiance = kind == CubeKind::irradiance;
+    const char* photometric = irradiance ? "lx" : "cd.m^-2";
+    std::string unit = detector.tristimulus ? fmt::format("{} (Y)", photometric)
+                       : detector.luminous  ? fmt::format("{} (V of {})", photometric, detector.name)
+                       : irradiance         ? "W.m^-2 x sensitivity"
                                             : "W.m^-2.sr^-1 x sensitivity";
     if (observation.light()) unit = "perfect diffuser under " + observation.light()->text + ": Y = 100";
     writeChannelsExr(arguments.output, channels.width, channels.height, detector.channels,
@@ -187,7 +195,7 @@ ExitCode observe(const ObserveArguments& arguments) {
     const ChannelImage channels = observation.channels(cube);
     const Json details = task.picture
                              ? writePicture(arguments, task, observation, cube, channels, console.notes())
-                             : writeChannels(arguments, observation, channels);
+                             : writeChannels(arguments, observation, cube.info.kind, channels);
     if (!arguments.json) return ExitCode::ok;
     Json out{{"output", arguments.output},
              {"width", channels.width},

@@ -11,6 +11,8 @@ namespace spectrad {
 Detector detectorFrom(const Spectrum& spectrum) {
     Detector detector;
     detector.name = spectrum.text;
+    detector.electrons = spectrum.electrons;
+    detector.relative = spectrum.relative;
     for (const std::string& channel : spectrum.channels)
         detector.channels.push_back(channelName(channel));
     detector.channels.resize(spectrum.curves.size());

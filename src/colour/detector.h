@@ -20,6 +20,8 @@ struct Detector {
         1;  ///< K_m, lm/W, of X Y Z and V, so that Y and V are in cd/m² (spectrum/efficacy.h); else 1
     bool tristimulus = false;  ///< channels are X Y Z
     bool luminous = false;     ///< the channel is V, a luminous efficiency
+    bool electrons = false;    ///< channels are electrons per joule: quantum efficiencies times λ/hc
+    bool relative = false;     ///< of some of its curves only the shape is known
 
     [[nodiscard]] size_t size() const { return response.size(); }
 };

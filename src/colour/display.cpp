@@ -45,7 +45,7 @@ Display p3Display() {
 }
 Display rec2020Display() {
     return named("rec2020", displayFromPrimaries({{{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}}}, d65,
-                                                 Display::Transfer::rec2020, 2.2));
+                                                 Display::Transfer::gamma, 2.4));
 }
 
 // BT.2020's α and β, to double precision: where the line 4.5 E and the power meet with equal slope.

@@ -17,13 +17,15 @@ struct Display {
     Matrix3 toXyz;  ///< linear RGB 0…1 → XYZ, white at Y = 1
     Matrix3 fromXyz;
     Triple white;  ///< XYZ of RGB (1,1,1), Y = 1
+    /// rec2020: what a camera of BT.2020 (and BT.709) makes of light, not what a display shows.
     enum class Transfer { srgb, rec2020, gamma } transfer = Transfer::srgb;
     double gamma = 2.2;
 };
 
-[[nodiscard]] Display srgbDisplay();     ///< IEC 61966-2-1: Rec. 709 primaries, D65
-[[nodiscard]] Display p3Display();       ///< Display P3: P3 primaries, D65, sRGB transfer
-[[nodiscard]] Display rec2020Display();  ///< ITU-R BT.2020, its transfer function
+[[nodiscard]] Display srgbDisplay();  ///< IEC 61966-2-1: Rec. 709 primaries, D65
+[[nodiscard]] Display p3Display();    ///< Display P3: P3 primaries, D65, sRGB transfer
+/// ITU-R BT.2020, shown as ITU-R BT.1886 has it for a display without black: signals to the power of 2.4.
+[[nodiscard]] Display rec2020Display();
 /// "srgb", "p3", "rec2020", or a text file of chromaticities (docs/format.md); throws UsageError /
 /// InputError.
 [[nodiscard]] Display displayFor(const std::string& text);

@@ -58,15 +58,17 @@ Matrix3 renderingMatrix(const Rendering& rendering, double whiteLuminance) {
     return base.display.fromXyz * adapted * diagonal({scale, scale, scale});
 }
 
+Triple toned(const Triple& signals, const Display& display, Tone tone) {
+    if (tone == Tone::linear) return signals;
+    const double factor = toneFactor((display.toXyz * signals)[1]);
+    return {signals[0] * factor, signals[1] * factor, signals[2] * factor};
+}
+
 ShownSignals shownSignals(Triple signals, const Display& display, Tone tone, GamutMapping gamut) {
-    const auto luminanceOf = [&] { return (display.toXyz * signals)[1]; };
-    if (tone == Tone::reinhard) {
-        const double factor = toneFactor(luminanceOf());
-        for (double& s : signals)
-            s *= factor;
-    }
+    signals = toned(signals, display, tone);
     const auto [least, most] = std::minmax_element(signals.begin(), signals.end());
-    ShownSignals shown{signals, luminanceOf(), *least<-signalTolerance, *most> 1 + signalTolerance};
+    ShownSignals shown{signals, (display.toXyz * signals)[1],
+                       *least<-signalTolerance, *most> 1 + signalTolerance};
     const double share = gamut == GamutMapping::desaturate ? desaturation(signals, shown.luminance) : 0;
     for (double& s : shown.signals)
         s = std::clamp(s + share * (std::clamp(shown.luminance, 0.0, 1.0) - s), 0.0, 1.0);

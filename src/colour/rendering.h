@@ -34,6 +34,9 @@ struct RenderedPicture {
         map;  ///< grey, but where a signal was below 0 (blue), above 1 (red), or both (magenta); 8-bit sRGB
 };
 
+/// Linear signals through the tone curve, beyond the display's range as well.
+[[nodiscard]] Triple toned(const Triple& signals, const Display& display, Tone tone);
+
 /// What the display shows of linear signals: through the tone curve, then within its range.
 struct ShownSignals {
     Triple signals;                     ///< 0…1

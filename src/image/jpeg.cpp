@@ -61,9 +61,9 @@ bool readRows(jpeg_decompress_struct& jpeg, JpegErrors& errors, unsigned char* p
     return true;
 }
 
-/// An ICC profile lies in as many markers as it needs, each with its number of how many (ICC.1:2022, B.4);
-/// nothing where one of them is missing.
-std::string profileOf(const jpeg_decompress_struct& jpeg) {
+/// An ICC profile lies in as many markers as it needs, each with its number and how many there are
+/// (ICC.1:2022, B.4).
+void readProfile(const jpeg_decompress_struct& jpeg, PictureValues& picture) {
     constexpr std::string_view signature("ICC_PROFILE\0", 12);
     std::map<unsigned, std::string_view> parts;
     size_t count = 0;
@@ -74,12 +74,13 @@ std::string profileOf(const jpeg_decompress_struct& jpeg) {
         parts[static_cast<unsigned char>(data[head - 2])] = data.substr(head);
         count = static_cast<unsigned char>(data[head - 1]);
     }
-    std::string profile;
-    if (parts.size() == count &&
-        (count == 0 || (parts.begin()->first == 1 && parts.rbegin()->first == count)))
-        for (const auto& [number, part] : parts)
-            profile += part;
-    return profile;
+    if (parts.empty()) return;
+    if (parts.size() != count || parts.begin()->first != 1 || parts.rbegin()->first != count) {
+        picture.misread = "its ICC profile lacks parts";
+        return;
+    }
+    for (const auto& [number, part] : parts)
+        picture.profile += part;
 }
 
 }  // namespace
@@ -105,7 +106,7 @@ PictureValues decodeJpeg(std::string_view bytes, const std::string& name) {
     picture.width = static_cast<int>(jpeg.image_width);
     picture.height = static_cast<int>(jpeg.image_height);
     picture.channels = jpeg.out_color_space == JCS_GRAYSCALE ? 1 : 3;
-    picture.profile = profileOf(jpeg);
+    readProfile(jpeg, picture);
     // A block of 64 pixels takes a bit of a progressive file's scan at the very least: a damaged header
     // claims more.
     const size_t rowBytes = size_t{jpeg.image_width} * static_cast<size_t>(picture.channels);

@@ -11,7 +11,6 @@ PictureColour pictureColour(const Display& display) {
         return colour;
     }
     if (display.name == "p3") colour.codes = {12, 13};
-    if (display.name == "rec2020") colour.codes = {9, 14};
     std::array<double, 8> xy{};
     for (size_t k = 0; k < 4; ++k) {
         Triple xyz = display.white;

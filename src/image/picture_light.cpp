@@ -84,6 +84,7 @@ PictureLight::PictureLight(const PictureValues& picture, const std::string& file
     : PictureLight() {
     const Display srgb = srgbDisplay();
     try {
+        if (!picture.colour.codes && !picture.misread.empty()) throw InputError(picture.misread);
         if (!picture.colour.codes && !picture.profile.empty()) {
             profile_.emplace(picture.profile, picture.channels < 3 ? 1 : 3);
             toSrgb_ = srgb.fromXyz * adaptation(Adaptation::bradford, IccProfile::white(), srgb.white);

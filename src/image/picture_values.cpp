@@ -52,15 +52,18 @@ bool readRows(png_structp png, png_bytepp rows) {
 }
 
 /// What chunks before the pixels say.
-PictureColour colourOf(png_structp png, png_infop head) {
+PictureColour colourOf(png_structp png, png_infop head, std::string& misread) {
     PictureColour colour;
     png_unknown_chunkp unknown = nullptr;
     const int count = png_get_unknown_chunks(png, head, &unknown);
     for (int i = 0; i < count; ++i)
-        // Primaries, transfer, then 0: no matrix, and 1: full range; a PNG can be nothing else in colours.
-        if (std::memcmp(unknown[i].name, cicp.data(), cicp.size()) == 0 && unknown[i].size == 4 &&
-            unknown[i].data[2] == 0 && unknown[i].data[3] == 1)
-            colour.codes = {unknown[i].data[0], unknown[i].data[1]};
+        // Primaries, transfer, then 0: no matrix, and 1: full range.
+        if (std::memcmp(unknown[i].name, cicp.data(), cicp.size()) == 0) {
+            if (unknown[i].size == 4 && unknown[i].data[2] == 0 && unknown[i].data[3] == 1)
+                colour.codes = {unknown[i].data[0], unknown[i].data[1]};
+            else
+                misread = "cICP: not red, green and blue of full range";
+        }
     int intent = 0;
     colour.srgb = png_get_sRGB(png, head, &intent) != 0;
     std::array<double, 8> xy{};
@@ -84,7 +87,7 @@ PictureValues decodePngValues(std::string_view bytes, const std::string& name) {
     PngInput input;
     input.left = bytes;
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, static_cast<PngErrors*>(&input),
-                                             keepPngError, ignorePngWarning);
+                                             keepPngError, keepPngWarning);
     png_infop head = png ? png_create_info_struct(png) : nullptr;
     const auto fail = [&](const std::string& message) {
         png_destroy_read_struct(&png, &head, nullptr);
@@ -96,14 +99,16 @@ PictureValues decodePngValues(std::string_view bytes, const std::string& name) {
     if (!head) failRead();
     png_set_read_fn(png, &input, takeBytes);
     if (!readHeader(png, head)) failRead();
+    std::string misread = input.colourWarning;
+    const PictureColour colour = colourOf(png, head, misread);
     PictureValues picture{static_cast<int>(png_get_image_width(png, head)),
                           static_cast<int>(png_get_image_height(png, head)),
                           png_get_channels(png, head),
                           static_cast<std::uint16_t>(png_get_bit_depth(png, head) == 16 ? 65535 : 255),
                           {},
-                          colourOf(png, head),
-                          {}};
-    if (!picture.colour.srgb) picture.profile = profileOf(png, head);
+                          colour,
+                          colour.srgb ? std::string() : profileOf(png, head),
+                          colour.srgb ? std::string() : std::move(misread)};
     const size_t rowBytes = png_get_rowbytes(png, head), height = static_cast<size_t>(picture.height);
     // deflate makes at most 1032 bytes of one: a damaged header claims more.
     if (rowBytes * height / 4096 > bytes.size())

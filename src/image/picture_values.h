@@ -18,6 +18,7 @@ struct PictureValues {
     std::vector<std::uint16_t> values;        ///< interleaved, row 0 on top
     PictureColour colour{};                   ///< of a PNG
     std::string profile{};                    ///< an ICC profile, byte by byte; none where it is sRGB's own
+    std::string misread{};                    ///< what the file says of its colours and cannot be understood
 };
 
 /// PNG or JPEG, whichever the first bytes say; `name` is what errors call it. gAMA, sRGB and other chunks

@@ -1,12 +1,14 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "image/picture.h"
+#include "image/png16.h"
 #include "image/png_errors.h"
 
 #include <fmt/format.h>
 #include <png.h>
 
 #include <algorithm>
+#include <bit>
 #include <csetjmp>
 
 namespace spectrad {
@@ -48,20 +50,32 @@ void markColour(png_structp png, png_infop head, const PictureColour& colour) {
     }
 }
 
+struct PngLayout {
+    int width, height, channels;
+    int bits = 8, significant = 8;  ///< of a value, and how many of them count
+};
+
 /// False after an error. Holds no object with a destructor: libpng leaves it by longjmp.
-bool encode(png_structp png, png_infop head, const Picture8& picture, png_bytepp rows, png_textp texts,
+bool encode(png_structp png, png_infop head, const PngLayout& layout, png_bytepp rows, png_textp texts,
             int textCount, const PictureColour& colour) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
-    const int type = picture.channels == 1   ? PNG_COLOR_TYPE_GRAY
-                     : picture.channels == 3 ? PNG_COLOR_TYPE_RGB
-                                             : PNG_COLOR_TYPE_RGB_ALPHA;
+    const int type = layout.channels == 1   ? PNG_COLOR_TYPE_GRAY
+                     : layout.channels == 3 ? PNG_COLOR_TYPE_RGB
+                                            : PNG_COLOR_TYPE_RGB_ALPHA;
     png_set_user_limits(png, 0x7fffffff, 0x7fffffff);
-    png_set_IHDR(png, head, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height),
-                 8, type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, head, static_cast<png_uint_32>(layout.width), static_cast<png_uint_32>(layout.height),
+                 layout.bits, type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
     markColour(png, head, colour);
+    if (layout.significant < layout.bits) {
+        const auto bits = static_cast<png_byte>(layout.significant);
+        const png_color_8 significant{bits, bits, bits, bits, bits};
+        png_set_sBIT(png, head, &significant);
+    }
     if (textCount > 0) png_set_text(png, head, texts, textCount);
     png_set_rows(png, head, rows);
-    png_write_png(png, head, PNG_TRANSFORM_IDENTITY, nullptr);
+    const bool swap = layout.bits == 16 && std::endian::native == std::endian::little;
+    png_write_png(png, head, swap ? PNG_TRANSFORM_SWAP_ENDIAN : PNG_TRANSFORM_IDENTITY, nullptr);
     return true;
 }
 
@@ -86,40 +100,63 @@ std::vector<png_text> pngTexts(const std::map<std::string, std::string>& text, c
     return texts;
 }
 
-}  // namespace
-
-void writePng(const std::filesystem::path& target, const Picture8& picture,
-              const std::map<std::string, std::string>& text, const PictureColour& colour) {
-    const SourceLocation where{target.string()};
-    const bool channelsFit = picture.channels == 1 || picture.channels == 3 || picture.channels == 4;
-    const size_t rowBytes =
-        static_cast<size_t>(std::max(picture.width, 0)) * static_cast<size_t>(std::max(picture.channels, 0));
-    if (picture.width < 1 || picture.height < 1 || !channelsFit ||
-        picture.pixels.size() != rowBytes * static_cast<size_t>(picture.height))
-        throw InputError(
-            where,
-            fmt::format("no PNG of {}x{} pixels with {} channels from {} bytes (allowed: 1, 3, 4 channels)",
-                        picture.width, picture.height, picture.channels, picture.pixels.size()));
-    std::vector<png_text> texts = pngTexts(text, where);
+void write(const std::filesystem::path& target, const PngLayout& layout, const void* values,
+           const std::map<std::string, std::string>& text, const PictureColour& colour) {
+    std::vector<png_text> texts = pngTexts(text, {target.string()});
     std::vector<png_bytep> rows;
-    for (int y = 0; y < picture.height; ++y)
-        rows.push_back(const_cast<png_bytep>(picture.pixels.data() + static_cast<size_t>(y) * rowBytes));
+    const size_t rowBytes = static_cast<size_t>(layout.width) * static_cast<size_t>(layout.channels) *
+                            static_cast<size_t>(layout.bits / 8);
+    for (int y = 0; y < layout.height; ++y)
+        rows.push_back(static_cast<png_bytep>(const_cast<void*>(values)) + static_cast<size_t>(y) * rowBytes);
 
     PngOutput output;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, static_cast<PngErrors*>(&output),
-                                              keepPngError, ignorePngWarning);
+                                              keepPngError, keepPngWarning);
     png_infop head = png ? png_create_info_struct(png) : nullptr;
     bool encoded = false;
     if (head) {
         png_set_write_fn(png, &output, appendBytes, nullptr);
         encoded =
-            encode(png, head, picture, rows.data(), texts.data(), static_cast<int>(texts.size()), colour);
+            encode(png, head, layout, rows.data(), texts.data(), static_cast<int>(texts.size()), colour);
     }
     png_destroy_write_struct(&png, &head);
     if (!encoded)
         throw MachineError("cannot write '" + target.string() +
                            "': " + (output.error.empty() ? "out of memory" : output.error));
     writeFile(target, output.bytes);
+}
+
+}  // namespace
+
+void writePng(const std::filesystem::path& target, const Picture8& picture,
+              const std::map<std::string, std::string>& text, const PictureColour& colour) {
+    const bool channelsFit = picture.channels == 1 || picture.channels == 3 || picture.channels == 4;
+    const size_t rowBytes =
+        static_cast<size_t>(std::max(picture.width, 0)) * static_cast<size_t>(std::max(picture.channels, 0));
+    if (picture.width < 1 || picture.height < 1 || !channelsFit ||
+        picture.pixels.size() != rowBytes * static_cast<size_t>(picture.height))
+        throw InputError(
+            {target.string()},
+            fmt::format("no PNG of {}x{} pixels with {} channels from {} bytes (allowed: 1, 3, 4 channels)",
+                        picture.width, picture.height, picture.channels, picture.pixels.size()));
+    write(target, {picture.width, picture.height, picture.channels}, picture.pixels.data(), text, colour);
+}
+
+void writePng16(const std::filesystem::path& target, const Picture16& picture,
+                const std::map<std::string, std::string>& text) {
+    const size_t values = static_cast<size_t>(std::max(picture.width, 0)) *
+                          static_cast<size_t>(std::max(picture.height, 0)) *
+                          static_cast<size_t>(std::max(picture.channels, 0));
+    if (picture.width < 1 || picture.height < 1 || (picture.channels != 1 && picture.channels != 3) ||
+        picture.pixels.size() != values || picture.bits < 1 || picture.bits > 16)
+        throw InputError(
+            {target.string()},
+            fmt::format("no 16-bit PNG of {}x{} pixels with {} channels of {} bits from {} values "
+                        "(allowed: 1 or 3 channels)",
+                        picture.width, picture.height, picture.channels, picture.bits,
+                        picture.pixels.size()));
+    write(target, {picture.width, picture.height, picture.channels, 16, picture.bits}, picture.pixels.data(),
+          text, {.gamma = 1});
 }
 
 }  // namespace spectrad

@@ -34,6 +34,22 @@ Detector litBy(const Spectrum& light, const Detector& detector, const Detector& 
     return lit;
 }
 
+std::optional<Spectrum> statedLight(const CubeInfo& info, const Detector& standard,
+                                    const SpectrumResolver& resolver) {
+    const auto xyz = info.attributes.find(attribute::whiteXyz), name = info.attributes.find(attribute::white);
+    if (xyz == info.attributes.end() || name == info.attributes.end()) return std::nullopt;
+    const std::optional<Triple> stated = parseXyz(xyz->second);
+    if (!stated) return std::nullopt;
+    try {
+        Spectrum light = resolver.resolve(name->second, Role::light, {});
+        const std::array<const Curve*, 1> alone{&light.curve()};
+        if (sameChromaticity(respondXyz(standard, alone), *stated)) return light;
+    } catch (const InputError&) {
+        // Not in the library.
+    }
+    return std::nullopt;
+}
+
 White statedWhite(const CubeInfo& info, const Detector& detector, const XyzMatrix& toXyz,
                   const Detector& standard, const SpectrumResolver& resolver, Notes& notes) {
     const auto xyz = info.attributes.find(attribute::whiteXyz), name = info.attributes.find(attribute::white);
@@ -47,12 +63,7 @@ White statedWhite(const CubeInfo& info, const Detector& detector, const XyzMatri
     if (detector.name.ends_with("cie1931-2")) return known;
     // Another observer wants the light's spectrum. A name that is the library's says it; one of the scene's
     // own may by chance name another light here, which its chromaticity betrays.
-    try {
-        if (sameChromaticity(whiteFor(known.name, standard, {}, resolver, {}).xyz, known.xyz))
-            return whiteFor(known.name, detector, toXyz, resolver, {});
-    } catch (const InputError&) {
-        // Not in the library: the chromaticity must do.
-    }
+    if (statedLight(info, standard, resolver)) return whiteFor(known.name, detector, toXyz, resolver, {});
     notes.warn("the spectrum of the white '" + known.name +
                "' is not known here: its CIE 1931 chromaticity is used (--white)");
     return known;

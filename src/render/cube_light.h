@@ -4,7 +4,10 @@
 
 #include "colour/white.h"
 #include "image/cube.h"
+#include "spectrum/resolver.h"
 #include "spectrum/spectrum.h"
+
+#include <optional>
 
 namespace spectrad {
 
@@ -20,6 +23,11 @@ inline constexpr const char* whiteXyz = "whiteXYZ";  ///< its X,Y,Z with Y = 1, 
 /// as `standard` sees it where the detector is no observer. Throws InputError for a light that it does not
 /// see.
 [[nodiscard]] Detector litBy(const Spectrum& light, const Detector& detector, const Detector& standard);
+
+/// The spectrum of the cube's scene's first light, where its name means here what it meant there: its
+/// chromaticity tells. Nothing for a cube that says nothing, or a light that is not known here.
+[[nodiscard]] std::optional<Spectrum> statedLight(const CubeInfo& info, const Detector& standard,
+                                                  const SpectrumResolver& resolver);
 
 /// The first light of the cube's scene as the detector sees it; E where the cube says nothing. A light that
 /// is in the library is seen by its spectrum, else its CIE 1931 chromaticity must do, with a warning.

@@ -79,12 +79,30 @@ struct Resolved {
     bool sensor = false;  ///< what makes light a signal, and so is blind outside its range
 };
 
+/// A photon frees one electron at most.
+void checkQuantumEfficiency(const Spectrum& spectrum, const DetectorFactor& factor) {
+    constexpr double rounding = 1e-6;
+    for (const Curve& curve : spectrum.curves) {
+        const double most = curve.bounds().second;
+        if (most > 1 + rounding)
+            throw InputError(
+                factor.where,
+                fmt::format(
+                    "'{}' as a quantum efficiency: value {} (allowed: at most 1){}", factor.text,
+                    shortest(most),
+                    most > 1.5 && most <= 150 ? "; the values look like percent: divide them by 100" : ""));
+    }
+}
+
 class Multiplier {
   public:
     Multiplier(const SpectrumResolver& resolver, Spectrum& out) : resolver_(resolver), out_(out) {}
 
     Resolved resolve(const DetectorFactor& factor) {
-        Spectrum spectrum = resolver_.resolve(factor.text, Role::any, factor.where);
+        // Cameras of the library need no folder before their names, here as elsewhere.
+        const bool bareName = factor.quantum && factor.text.find_first_of("/:.") == std::string::npos;
+        Spectrum spectrum =
+            resolver_.resolve(factor.text, bareName ? Role::detector : Role::any, factor.where);
         const bool filter =
             spectrum.quantity == Quantity::transmittance || spectrum.quantity == Quantity::reflectance;
         if (filter && factor.quantum)
@@ -98,6 +116,8 @@ class Multiplier {
             if (const auto efficacy = efficacyOf(spectrum)) out_.efficacy = efficacy;
         out_.files.insert(out_.files.end(), spectrum.files.begin(), spectrum.files.end());
         out_.relative = out_.relative || spectrum.relative;
+        if (factor.quantum) checkQuantumEfficiency(spectrum, factor);
+        if (factor.quantum && isBare(spectrum)) endless_ = factor.text;
         if (factor.quantum)
             for (Curve& curve : spectrum.curves)
                 curve = Curve::formula([curve](double nm) { return curve.at(nm) * photonsPerJoule(nm); },
@@ -108,12 +128,16 @@ class Multiplier {
         return {spectrum.curves, spectrum.channels, !filter && !isBare(spectrum)};
     }
 
+    /// The last quantum efficiency that has no range, as the user wrote it; empty: none.
+    [[nodiscard]] const std::string& endless() const { return endless_; }
+
   private:
     /// A number or a formula that goes on for ever says nothing about where a sensor ends.
     static bool isBare(const Spectrum& spectrum) { return !spectrum.curve().range().has_value(); }
 
     const SpectrumResolver& resolver_;
     Spectrum& out_;
+    std::string endless_;
 };
 
 /// The product on the range where no sensor is blind. Between the samples of all its factors it is a
@@ -172,10 +196,11 @@ Spectrum multiplied(const DetectorProduct& product, const std::string& text, con
     Multiplier multiplier(resolver, out);
     std::vector<Curve> common;
     Resolved several;
-    bool sensor = false;
+    bool sensor = false, electrons = false;
     for (const DetectorFactor& factor : product.common) {
         Resolved resolved = multiplier.resolve(factor);
         sensor = sensor || resolved.sensor;
+        electrons = electrons || factor.quantum;
         if (resolved.curves.size() == 1) {
             common.push_back(resolved.curves.front());
             continue;
@@ -194,12 +219,12 @@ Spectrum multiplied(const DetectorProduct& product, const std::string& text, con
     };
     for (size_t c = 0; c < several.curves.size(); ++c)
         add(c < several.names.size() ? several.names[c] : "", {several.curves[c]});
-    bool everyChannel = !product.channels.empty();
+    bool everyChannel = !product.channels.empty(), everyElectrons = everyChannel;
     for (const DetectorProduct::Channel& channel : product.channels) {
         if (std::find(out.channels.begin(), out.channels.end(), channel.name) != out.channels.end())
             throw InputError(where, fmt::format("the detector has the channel '{}' twice", channel.name));
         std::vector<Curve> own;
-        bool ownSensor = false;
+        bool ownSensor = false, ownElectrons = false;
         for (const DetectorFactor& factor : channel.factors) {
             const Resolved resolved = multiplier.resolve(factor);
             if (resolved.curves.size() != 1)
@@ -207,11 +232,19 @@ Spectrum multiplied(const DetectorProduct& product, const std::string& text, con
                                                            factor.text, resolved.curves.size()));
             own.push_back(resolved.curves.front());
             ownSensor = ownSensor || resolved.sensor;
+            ownElectrons = ownElectrons || factor.quantum;
         }
         everyChannel = everyChannel && ownSensor;
+        everyElectrons = everyElectrons && ownElectrons;
         add(channel.name, std::move(own));
     }
     if (out.curves.empty()) add("signal", {});
+    out.electrons = electrons || everyElectrons;
+    if (!sensor && !everyChannel && !multiplier.endless().empty())
+        throw InputError(where,
+                         fmt::format("the quantum efficiency '{}' goes on for ever: a sensor has a range, "
+                                     "as 'qe:300:0.5 1100:0.5'",
+                                     multiplier.endless()));
     if (!sensor && !everyChannel)
         throw InputError(where,
                          fmt::format("the detector '{}' is all filters and no sensor (a curve of quantity "

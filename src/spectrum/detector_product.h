@@ -12,8 +12,8 @@ namespace spectrad {
 /// One curve of a product, as the user names it.
 struct DetectorFactor {
     std::string text;
-    bool quantum =
-        false;  ///< a quantum efficiency, electrons per photon: counts times λ/hc, photons per joule
+    bool quantum = false;  ///< a quantum efficiency, electrons per photon, at most 1: counts times λ/hc,
+                           ///< photons per joule
     SourceLocation where;
 };
 
@@ -33,7 +33,8 @@ struct DetectorProduct {
 /// perhaps a list of channels in parentheses. Throws InputError with the form that is meant.
 [[nodiscard]] DetectorProduct parseDetectorProduct(std::string_view text, const SourceLocation& where);
 /// The product as a sensitivity of one curve a channel, called `text`. Outside its range a transmittance is
-/// held and a sensor is blind. Throws InputError for a factor that is no sensitivity or transmittance, for
+/// held and a sensor is blind. It counts electrons where each channel has one quantum efficiency. Throws
+/// InputError for a factor that is no sensitivity or transmittance, for a quantum efficiency above 1, for
 /// more than one factor of several channels, and without a sensor.
 [[nodiscard]] Spectrum multiplied(const DetectorProduct& product, const std::string& text,
                                   const SpectrumResolver& resolver, const SourceLocation& where);

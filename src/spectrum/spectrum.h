@@ -32,9 +32,10 @@ enum class Quantity {
 struct Spectrum {
     std::string text;  ///< as the user wrote it: "illuminants/D65", "paint", "lamp.csv#3", …
     Quantity quantity = Quantity::unknown;
-    std::string unit;       ///< of the values: "1", "W.m^-2.sr^-1.nm^-1", …; may be empty if not stated
-    bool relative = false;  ///< only the shape is meant
-    bool formula = false;   ///< made from a formula (blackbody:…, constant:…), not from samples
+    std::string unit;        ///< of the values: "1", "W.m^-2.sr^-1.nm^-1", …; may be empty if not stated
+    bool relative = false;   ///< only the shape is meant
+    bool electrons = false;  ///< a sensitivity of electrons per joule: a quantum efficiency times λ/hc
+    bool formula = false;    ///< made from a formula (blackbody:…, constant:…), not from samples
     std::vector<std::string>
         channels;  ///< names of the curves; one for a plain spectrum, X Y Z for an observer
     std::vector<Curve> curves;

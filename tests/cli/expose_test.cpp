@@ -1,6 +1,7 @@
 // expose: raw counts by the command line, the same for the same seed; compare by two observers.
 #include "cli/support.h"
 #include "image/png16.h"
+#include "support/read_picture.h"
 
 #include <png.h>
 
@@ -75,9 +76,97 @@ TEST_CASE(
     CHECK(shot("c.png", "8") != first);
 }
 
+TEST_CASE("a picture of full pixels is white, and says how many are full") {
+    const Folder folder;
+    cli::writeCube(folder / "ramp.exr", 16, 4, "380:780:5",
+                   [](int x, int, double nm) { return 0.002 * (1 + x) * nm / 500; },
+                   spectrad::CubeKind::radiance,
+                   {{"white", "illuminants/A"}, {"whiteXYZ", "1.0985,1,0.3558"}});
+    const auto shot = [&](const std::string& fullWell) {
+        const Outcome outcome =
+            run(folder, {"expose", "ramp.exr", "-o", "r.exr", "--picture", "p.png", "--json",
+                         "--no-shot-noise", "--full-well", fullWell, "--time", "0.1"});
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        CHECK(outcome.json().at("taken_with").at("full well electrons") == fullWell);
+        return outcome.json().at("full_pixels").get<int>();
+    };
+    CHECK(shot("1e9") == 0);
+    const int some = shot("1.5e5");
+    INFO(some);
+    CHECK((some > 0 && some < 64));
+    CHECK(shot("10") == 64);
+    const spectrad::Picture8 burnt = spectrad::readPicture8(folder / "p.png");
+    for (const std::uint8_t code : burnt.pixels)
+        CHECK(int(code) >= 254);
+}
+
+TEST_CASE(
+    "a picture is balanced on the light that lit it, known for what it is, or refused before anything is "
+    "written") {
+    const Folder folder;
+    const auto greyIn = [&](const std::string& cube) {
+        const Outcome outcome =
+            run(folder, {"expose", cube, "-o", "r.exr", "--picture", "p.png", "--no-shot-noise"});
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        const auto rgb = spectrad::readPicture8(folder / "p.png").pixels;
+        for (size_t c = 1; c < 3; ++c)
+            CHECK(std::abs(int(rgb[c]) - int(rgb[0])) <= 1);
+    };
+    // A reflectance under D65, though its scene had another lamp.
+    cli::writeCube(folder / "grey.exr", 4, 4, "380:780:5", [](int, int, double) { return 0.5; },
+                   spectrad::CubeKind::reflectance,
+                   {{"white", "illuminants/A"}, {"whiteXYZ", "1.0985,1,0.3558"}});
+    greyIn("grey.exr");
+    // A name that means another light here than it did there.
+    folder.write("lamp.csv", "400,1\n700,20\n");
+    cli::writeCube(folder / "own.exr", 4, 4, "380:780:5", [](int, int, double) { return 0.5; },
+                   spectrad::CubeKind::radiance, {{"white", "lamp.csv"}, {"whiteXYZ", "1,1,1"}});
+    requireError(run(folder, {"expose", "own.exr", "-o", "raw.exr", "--picture", "q.png"}), 1,
+                 "--white LIGHT");
+    CHECK_FALSE(cli::fs::exists(folder / "raw.exr"));
+    requireError(
+        run(folder, {"expose", "own.exr", "-o", "raw.exr", "--picture", "q.png", "--white", "at:1,1"}), 2,
+        "a light's spectrum");
+    CHECK(run(folder, {"expose", "own.exr", "-o", "raw.exr", "--picture", "q.png", "--white", "constant:1"})
+              .code == 0);
+}
+
+TEST_CASE("raw counts in a PNG are linear, of no known primaries, with their bits and what took them") {
+    const Folder folder;
+    writeFlat(folder);
+    REQUIRE(run(folder, {"expose", "flat.exr", "-o", "raw.png", "--full-well", "1e6", "--bits", "12",
+                         "--time", "0.02"})
+                .code == 0);
+    const std::string bytes = cli::bytesOf(folder / "raw.png");
+    for (const char* there : {"gAMA", "sBIT", "f-number", "full well electrons"})
+        CHECK(bytes.find(there) < bytes.find("IEND"));
+    for (const char* absent : {"cHRM", "sRGB", "cICP"})
+        CHECK(bytes.find(absent) == std::string::npos);
+}
+
+TEST_CASE("light that a detector would see beyond the cube's bands is said to be missing") {
+    const Folder folder;
+    writeFlat(folder);
+    const Outcome sensor =
+        run(folder, {"expose", "flat.exr", "-o", "raw.exr", "--observer", "qe:sensors/ccd"});
+    CHECK(sensor.err.find("outside the cube's 380 to 780 nm") != std::string::npos);
+    CHECK(run(folder, {"observe", "flat.exr", "-o", "x.exr"}).err.empty());
+}
+
 TEST_CASE("expose refuses what has no meaning") {
     const Folder folder;
     writeFlat(folder);
+    requireError(run(folder, {"expose", "flat.exr", "-o", "raw.exr", "--observer", "nikon-5100"}), 1,
+                 "'qe:nikon-5100' takes its curves as one");
+    requireError(run(folder, {"expose", "flat.exr", "-o", "raw.exr", "--observer", "cie1931-2"}), 1,
+                 "no quantum efficiency");
+    requireError(run(folder, {"expose", "flat.exr", "-o", "raw.exr", "--black", "64"}), 2, "--bits");
+    requireError(run(folder, {"expose", "flat.exr", "-o", "raw.exr", "--f-number", "0.3"}), 2, "--f-number");
+    cli::writeCube(folder / "e.exr", 4, 4, "380:780:5", [](int, int, double) { return 0.5; },
+                   spectrad::CubeKind::irradiance, {});
+    requireError(run(folder, {"expose", "e.exr", "-o", "raw.exr"}), 1, "irradiance");
     requireError(run(folder, {"expose", "flat.exr", "-o", "raw.png"}), 2, "--bits");
     requireError(run(folder, {"expose", "flat.exr", "-o", "raw.png", "--bits", "12"}), 2, "--full-well");
     requireError(run(folder, {"expose", "flat.exr", "-o", "raw.exr", "--mosaic", "RGB"}), 2, "no square");

@@ -87,6 +87,15 @@ TEST_CASE("Products that mean nothing are refused with the form that does") {
     Reader reader;
     CHECK_THROWS_WITH(reader.detector("filters/red * filters/ir-cut"), Contains("all filters and no sensor"));
     CHECK_THROWS_WITH(reader.detector("qe:filters/red"), Contains("no quantum efficiency"));
+    CHECK_THROWS_WITH(reader.detector("qe:400:40 700:60"),
+                      Contains("value 60 (allowed: at most 1)") && Contains("percent"));
+    CHECK_THROWS_WITH(reader.detector("qe:observers/cie1931-2"), Contains("at most 1"));
+    CHECK_THROWS_WITH(reader.detector("qe:constant:0.5"), Contains("goes on for ever"));
+    CHECK(reader.detector("qe:nikon-5100").electrons);
+    CHECK(reader.detector("qe:sensors/ccd * filters/red").electrons);
+    CHECK(reader.detector("filters/ir-cut * (R = qe:500:0.4 600:0.4, G = qe:400:0.4 500:0.4)").electrons);
+    CHECK_FALSE(reader.detector("nikon-5100").electrons);
+    CHECK_FALSE(reader.detector("sensors/ccd * filters/red").electrons);
     CHECK_THROWS_WITH(reader.detector("cie1931-2 * "), Contains("empty factor"));
     CHECK_THROWS_WITH(reader.detector("sensors/ccd * (R = filters/red"), Contains("parentheses"));
     CHECK_THROWS_WITH(reader.detector("sensors/ccd * (filters/red)"), Contains("no channel"));

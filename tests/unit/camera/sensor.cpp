@@ -56,7 +56,7 @@ TEST_CASE("Mean and variance of raw counts are the model's, in the dark, at few 
     const double n = side * side;
     for (const double signal : {0.0, 3.0, 20.0, 60.0, 4000.0}) {
         const NoiseModel model = noiseOf(signal, sensor),
-                         found = measured(expose(flat(side, signal), sensor));
+                         found = measured(expose(flat(side, signal), sensor).values);
         INFO("signal " << signal << ": mean " << found.mean << ", variance " << found.variance);
         CHECK(std::abs(found.mean - model.mean) < 5 * std::sqrt(model.variance / n));
         // The variance of a variance, with room for the kurtosis of few photons.
@@ -68,27 +68,27 @@ TEST_CASE("Without noise, well and bits the chain is its gain; each stage is lef
     Sensor sensor;
     sensor.electronsPerSignal = 3;
     sensor.shotNoise = false;
-    CHECK(expose(flat(2, 7), sensor).plane[0][3] == 21);
+    CHECK(expose(flat(2, 7), sensor).values.plane[0][3] == 21);
     sensor.fullWell = 10;
-    CHECK(expose(flat(2, 7), sensor).plane[0][3] == 10);
+    CHECK(expose(flat(2, 7), sensor).values.plane[0][3] == 10);
     sensor.bits = 8;
-    CHECK(expose(flat(2, 1), sensor).plane[0][3] == std::round(3 * 255 / 10.0));
+    CHECK(expose(flat(2, 1), sensor).values.plane[0][3] == std::round(3 * 255 / 10.0));
     sensor.black = 15;
-    CHECK(expose(flat(2, 0), sensor).plane[0][3] == 15);
-    CHECK(electronsOf(expose(flat(2, 7), sensor), sensor).plane[0][0] == Approx(10));
+    CHECK(expose(flat(2, 0), sensor).values.plane[0][3] == 15);
+    CHECK(electronsOf(expose(flat(2, 7), sensor).values, sensor).plane[0][0] == Approx(10));
     sensor.fullWell.reset();
     CHECK_THROWS_WITH(expose(flat(2, 1), sensor), Contains("full well"));
 }
 
 TEST_CASE("The same seed gives the same noise whatever the rest of the image; another gives another") {
     Sensor sensor;
-    const ChannelImage small = expose(flat(8, 30), sensor);
+    const ChannelImage small = expose(flat(8, 30), sensor).values;
     ChannelImage mixed = flat(8, 500);
     mixed.plane[0][27] = 30;
-    CHECK(expose(mixed, sensor).plane[0][27] == small.plane[0][27]);
-    CHECK(expose(flat(8, 30), sensor).plane[0] == small.plane[0]);
+    CHECK(expose(mixed, sensor).values.plane[0][27] == small.plane[0][27]);
+    CHECK(expose(flat(8, 30), sensor).values.plane[0] == small.plane[0]);
     sensor.seed = 2;
-    CHECK(expose(flat(8, 30), sensor).plane[0] != small.plane[0]);
+    CHECK(expose(flat(8, 30), sensor).values.plane[0] != small.plane[0]);
 }
 
 TEST_CASE("Electrons of a lens: a quarter of pi over the square of the f-number, times area and time") {

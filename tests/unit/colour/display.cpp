@@ -61,8 +61,11 @@ TEST_CASE("The sRGB curve has the standard's values") {
     CHECK(decode(srgb, 0.5) == Approx(0.214041).margin(1e-6));
 }
 
-TEST_CASE("BT.2020's curve has the standard's values") {
-    const Display display = rec2020Display();
+TEST_CASE("BT.2020's camera curve has the standard's values; its display shows signals to the power of 2.4") {
+    CHECK(decode(rec2020Display(), 0.5) == Approx(std::pow(0.5, 2.4)));
+    CHECK(encode(rec2020Display(), 0.18) == Approx(0.489437).margin(1e-6));
+    Display display = rec2020Display();
+    display.transfer = Display::Transfer::rec2020;
     CHECK(encode(display, 0.01) == Approx(0.045));
     CHECK(encode(display, 0.18) == Approx(0.408848).margin(1e-6));
     CHECK(encode(display, 1) == Approx(1).epsilon(1e-14));
@@ -72,7 +75,9 @@ TEST_CASE("Encoding clips, loses nothing inside the range, rises, and is undone 
     Display gamma = srgbDisplay();
     gamma.transfer = Display::Transfer::gamma;
     gamma.gamma = 2.4;
-    for (const Display& display : {srgbDisplay(), rec2020Display(), gamma}) {
+    Display camera = rec2020Display();
+    camera.transfer = Display::Transfer::rec2020;
+    for (const Display& display : {srgbDisplay(), camera, gamma}) {
         CHECK(encode(display, -0.5) == 0);
         CHECK(encode(display, 7) == Approx(1).epsilon(1e-14));
         CHECK(encode(display, std::nan("")) == 0);
@@ -91,7 +96,9 @@ TEST_CASE("Eight-bit codes are the rounded encoding, at every value and beyond t
     Display gamma = srgbDisplay();
     gamma.transfer = Display::Transfer::gamma;
     gamma.gamma = 3;
-    for (const Display& display : {srgbDisplay(), rec2020Display(), gamma}) {
+    Display camera = rec2020Display();
+    camera.transfer = Display::Transfer::rec2020;
+    for (const Display& display : {srgbDisplay(), camera, gamma}) {
         const Encoder8 encoder(display);
         for (int i = -1000; i <= 101000; ++i) {
             const double linear = i / 100000.0, exact = 255 * encode(display, linear);
@@ -141,7 +148,7 @@ TEST_CASE("What is wrong with a display's file is said with its place") {
 
 TEST_CASE("An unknown display is a wrong use of the command, with the names there are") {
     CHECK(displayFor("p3").name == "p3");
-    CHECK(displayFor("rec2020").transfer == Display::Transfer::rec2020);
+    CHECK(displayFor("rec2020").gamma == 2.4);
     CHECK_THROWS_AS((void)displayFor("adobe"), UsageError);
     CHECK_THROWS_WITH((void)displayFor("rec2O20"), Catch::Contains("did you mean 'rec2020'"));
 }

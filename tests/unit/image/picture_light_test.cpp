@@ -169,6 +169,9 @@ TEST_CASE("what a file says and nobody understands is warned of, and sRGB taken"
     picture.colour = {.chromaticities = {{0.3127, 0.329, 0.3, 0.3, 0.4, 0.4, 0.5, 0.5}}};
     CHECK_THAT(warned(picture), Contains("triangle"));
     picture.colour = {};
+    picture.misread = "iCCP: too short";
+    CHECK_THAT(warned(picture), Contains("too short"));
+    picture.misread = "";
     picture.profile = "no profile";
     CHECK_THAT(warned(picture), Contains("damaged"));
     picture.profile = profileOf(srgbDisplay(), 2, 1);

@@ -119,6 +119,15 @@ TEST_CASE("what a PNG says of its colours is read beside its values") {
     for (size_t i = 0; i < 8; ++i)
         CHECK(all.chromaticities.value()[i] == Approx((*form.chromaticities)[i]).margin(1e-5));
     CHECK(all.codes.value() == *form.codes);
+    CHECK(silent.codes == std::nullopt);
+    CHECK(read({8, 3}).misread.empty());
+    std::string dark = pngOf(4, 4, {8, 3, false, 1.0}, [](int, int, int) { return 5; });
+    const size_t gamma = dark.find("gAMA");
+    dark.replace(gamma + 4, 4, std::string(4, '\0'));
+    const auto sum = crc32(0, reinterpret_cast<const Bytef*>(dark.data() + gamma), 8);
+    for (size_t i = 0; i < 4; ++i)
+        dark[gamma + 8 + i] = static_cast<char>(sum >> (24 - 8 * i) & 255);
+    CHECK_THAT(decodeValues(dark, "a.png").misread, Contains("gAMA"));
     const Folder folder;
     writePng(folder / "s.png", {1, 1, 3, {1, 2, 3}});
     CHECK(readValues(folder / "s.png").colour.srgb);
@@ -135,6 +144,8 @@ TEST_CASE("a JPEG's ICC profile is read from as many markers as it has, if none 
     std::string broken = jpegOf(8, 8, 1, grey, profile, 400);
     broken[broken.find("ICC_PROFILE") + 12] = 9;  // the first part calls itself the ninth
     CHECK(decodeValues(broken, "a.jpg").profile.empty());
+    CHECK(decodeValues(broken, "a.jpg").misread == "its ICC profile lacks parts");
+    CHECK(decodeValues(jpegOf(8, 8, 1, grey), "a.jpg").misread.empty());
 }
 
 TEST_CASE("a PNG says that it is sRGB, unless it is not, and holds its texts") {
