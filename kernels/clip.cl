@@ -4,7 +4,9 @@
 /* A corner while it is being cut: pixels times reach, and the reach (depth, or 1 for orthographic cameras) and depth themselves. */
 typedef struct corner {
     double x, y, reach, depth;
+    uint vertex; /* whose corner it is; NO_VERTEX where an edge was cut */
 } corner;
+#define NO_VERTEX 0xffffffffu
 
 static void write_large(global sd_large* out, const int* x, const int* y, const float* key, uint id) {
     const long area = (long)(x[1] - x[0]) * (y[2] - y[0]) - (long)(x[2] - x[0]) * (y[1] - y[0]);
@@ -62,12 +64,14 @@ static corner cut(corner in, double d_in, corner out, double d_out) {
     c.y = fma(t, out.y - in.y, in.y);
     c.reach = fma(t, out.reach - in.reach, in.reach);
     c.depth = fma(t, out.depth - in.depth, in.depth);
+    c.vertex = NO_VERTEX;
     return c;
 }
 
 /* One work-item a number in `clip`: Sutherland-Hodgman against five planes, at most 8 corners, 6 triangles, appended to
- * records from *used on. camera: vertices in camera space, 3 floats each. Records that do not fit are only counted. */
-kernel void clip_triangles(global const uint* index, global const float* camera, global const uint* clip, uint count,
+ * records from *used on. camera: vertices in camera space, 3 floats each; screen: where those lie that need no cut. Records that do
+ * not fit are only counted. */
+kernel void clip_triangles(global const uint* index, global const float* camera, global const sd_vertex* screen, global const uint* clip, uint count,
                            sd_frame frame, uint capacity, global sd_large* records, global uint* used) {
     const uint i = (uint)get_global_id(0);
     if (i >= count) return;
@@ -75,7 +79,8 @@ kernel void clip_triangles(global const uint* index, global const float* camera,
     corner polygon[9], next[9];
     int corners = 3;
     for (int k = 0; k < 3; ++k) {
-        const global float* p = camera + 3 * (size_t)index[3 * id + k];
+        polygon[k].vertex = index[3 * id + k];
+        const global float* p = camera + 3 * (size_t)polygon[k].vertex;
         polygon[k].x = p[0] * frame.pixels_per_slope;
         polygon[k].y = -p[1] * frame.pixels_per_slope;
         polygon[k].depth = -(double)p[2];
@@ -98,6 +103,12 @@ kernel void clip_triangles(global const uint* index, global const float* camera,
     float key[9];
     const int bound = SD_GUARD * SD_SUBPIXEL;
     for (int k = 0; k < corners; ++k) {
+        if (polygon[k].vertex != NO_VERTEX && screen[polygon[k].vertex].outside == 0) {
+            /* The very place that neighbours which need no cut have it at: projected from float again, it may snap elsewhere. */
+            const sd_vertex v = screen[polygon[k].vertex];
+            x[k] = v.x, y[k] = v.y, key[k] = v.depth_key;
+            continue;
+        }
         const double reach = frame.orthographic ? 1.0 : fmax(polygon[k].depth, (double)SD_NEAR);
         const double depth = fmax(polygon[k].depth, (double)SD_NEAR);
         x[k] = clamp(convert_int_sat_rte(polygon[k].x / reach * SD_SUBPIXEL), -bound, bound);

@@ -71,7 +71,7 @@ static void sayWhatIsOutside(const Detector& detector, const Wavelengths& grid, 
     if (worst < detector.size())
         notes.say(fmt::format(
             "{} % of what '{}' of {} sees lies outside the cube's {} to {} nm, where it has no light",
-            rounded(100 * most, 2), detector.channels[worst], detector.name, shortest(grid.nm.front()),
+            rounded(100 * most, 3), detector.channels[worst], detector.name, shortest(grid.nm.front()),
             shortest(grid.nm.back())));
 }
 

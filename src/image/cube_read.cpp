@@ -1,10 +1,14 @@
+#include "base/files.h"
 #include "image/cube.h"
 #include "image/envi_read.h"
 #include "image/exr_read.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 
 namespace spectrad {
 
@@ -38,7 +42,13 @@ std::unique_ptr<CubeReader> openCube(const std::filesystem::path& path, Notes& n
 }
 
 bool looksLikeCube(const std::filesystem::path& path) {
-    return startsLikeExr(path) || findEnviHeader(path).has_value();
+    if (startsLikeExr(path)) return true;
+    if (!findEnviHeader(path)) return false;
+    constexpr std::array<std::string_view, 8> usual{"",     ".hdr", ".img", ".dat",
+                                                    ".raw", ".bil", ".bip", ".bsq"};
+    if (std::find(usual.begin(), usual.end(), extensionOf(path)) != usual.end()) return true;
+    // A scene or a model beside the cube that was made of it, scene.hdr, is not its data.
+    return isAsLargeAsItsEnviHeaderSays(path);
 }
 
 }  // namespace spectrad

@@ -53,24 +53,33 @@ constexpr std::array<UnitName, 20> unitNames{{{"nanometers", "nm"},
                                               {"ghz", "GHz"},
                                               {"thz", "THz"}}};
 
+constexpr std::array<std::string_view, 2> angstroms{"angstroms", "angstrom"};
+constexpr std::array<std::string_view, 4> wavenumbers{"wavenumber", "wavenumbers", "cm-1", "cm^-1"};
+
+template <size_t N>
+bool isAmong(const std::array<std::string_view, N>& names, std::string_view unit) {
+    return std::find(names.begin(), names.end(), unit) != names.end();
+}
+
+/// Nothing for what is no number, or in no unit that is known.
 std::optional<double> inNm(std::string_view number, std::string_view unit) {
-    if (unit == "angstroms" || unit == "angstrom") {
+    if (isAmong(angstroms, unit)) {
         const auto value = parseDouble(number);
         return value ? std::optional(*value / 10) : std::nullopt;
     }
-    if (unit == "wavenumber" || unit == "wavenumbers" || unit == "cm-1" || unit == "cm^-1") {
+    if (isAmong(wavenumbers, unit)) {
         const auto value = parseDouble(number);
         return value && *value > 0 ? std::optional(1e7 / *value) : std::nullopt;
     }
     const auto known =
         std::find_if(unitNames.begin(), unitNames.end(), [&](auto& u) { return u.name == unit; });
+    if (known == unitNames.end()) return std::nullopt;
     return parseWave(std::string(number).append(known->suffix), '.');
 }
 
 bool isKnownUnit(std::string_view unit) {
-    return std::any_of(unitNames.begin(), unitNames.end(), [&](auto& u) { return u.name == unit; }) ||
-           startsWith(unit, "angstrom") || startsWith(unit, "wavenumber") || unit == "cm-1" ||
-           unit == "cm^-1";
+    return isAmong(angstroms, unit) || isAmong(wavenumbers, unit) ||
+           std::any_of(unitNames.begin(), unitNames.end(), [&](auto& u) { return u.name == unit; });
 }
 
 }  // namespace

@@ -221,6 +221,21 @@ CubeInfo readEnviInfo(const fs::path& path, Notes& notes) {
     return openHeader(path, notes).raster.info;
 }
 
+bool isAsLargeAsItsEnviHeaderSays(const fs::path& path) {
+    try {
+        Notes unheard;
+        const envi::Raster raster = openHeader(path, unheard).raster;
+        const std::uintmax_t values = std::uintmax_t{raster.bandOrder.size()} *
+                                      static_cast<unsigned>(raster.info.width) *
+                                      static_cast<unsigned>(raster.info.height);
+        std::error_code error;
+        return fs::file_size(path, error) == raster.offset + values * *envi::bytesOfType(raster.dataType) &&
+               !error;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
 std::unique_ptr<CubeReader> openEnvi(const fs::path& path, Notes& notes) {
     return std::make_unique<EnviReader>(path, notes);
 }

@@ -253,6 +253,7 @@ void Stages::coverLarge(std::uint32_t large, std::uint32_t clipped) {
         });
         clip_.set("index", index_.buffer())
             .set("camera", camera_.buffer())
+            .set("screen", screen_.buffer())
             .set("clip", clipList_.buffer())
             .set("count", clipped)
             .set("frame", frame_)

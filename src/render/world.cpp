@@ -80,8 +80,16 @@ double tolerance(const Shape& shape, const Affine& toWorld, const View& view) {
     if (view.baked) return 0.1 * 2 * radius / std::max(view.width, view.height);
     double pixel = 1 / view.pixelsPerSlope;  // orthographic: metres; perspective: metres at a depth of 1 m
     if (!view.orthographic) {
-        const double distance = length(view.worldToCamera.point(toWorld.point({0, 0, 0}))) - radius * scale;
+        const Vec3 centre = view.worldToCamera.point(toWorld.point({0, 0, 0}));
+        const double distance = length(centre) - radius * scale;
         pixel *= std::max(distance, 0.01 * radius * scale);
+        // Off the axis, by the angle φ, a length across the line of sight fills 1 / cos²φ as many pixels as
+        // on it, as far out as the picture's corners see it at least.
+        const double corner = std::hypot(view.width, view.height) / 2 / view.pixelsPerSlope,
+                     outermost = std::atan2(std::hypot(centre.x, centre.y), -centre.z) +
+                                 std::asin(std::min(1.0, radius * scale / length(centre)));
+        const double slope = outermost < std::atan(corner) ? std::tan(outermost) : corner;
+        pixel /= 1 + slope * slope;
     }
     return std::max(0.1 * pixel / scale, 1e-7 * radius);
 }

@@ -12,6 +12,7 @@ namespace {
 
 struct Corner {
     double x, y, reach, depth;
+    const sd_vertex* vertex = nullptr;  // whose corner it is; none where an edge was cut
 };
 
 double insideOf(int p, const Corner& c) {
@@ -32,7 +33,8 @@ double insideOf(int p, const Corner& c) {
 Corner cut(const Corner& in, double dIn, const Corner& out, double dOut) {
     const double t = dIn / (dIn - dOut);
     return {std::fma(t, out.x - in.x, in.x), std::fma(t, out.y - in.y, in.y),
-            std::fma(t, out.reach - in.reach, in.reach), std::fma(t, out.depth - in.depth, in.depth)};
+            std::fma(t, out.reach - in.reach, in.reach), std::fma(t, out.depth - in.depth, in.depth),
+            nullptr};
 }
 
 std::vector<Corner> clipped(std::vector<Corner> polygon) {
@@ -149,12 +151,19 @@ std::vector<std::uint64_t> cover(const World& world, const Vertices& vertices, c
             const float* p = vertices.camera.data() + 3 * size_t{world.index[3 * id + k]};
             const double depth = -static_cast<double>(p[2]);
             polygon.push_back({p[0] * frame.pixels_per_slope, -p[1] * frame.pixels_per_slope,
-                               frame.orthographic ? 1.0 : depth, depth});
+                               frame.orthographic ? 1.0 : depth, depth,
+                               &vertices.screen[world.index[3 * id + k]]});
         }
         polygon = clipped(polygon);
         std::vector<int> x, y;
         std::vector<float> q;
         for (const Corner& c : polygon) {
+            if (c.vertex && !c.vertex->outside) {
+                x.push_back(c.vertex->x);
+                y.push_back(c.vertex->y);
+                q.push_back(c.vertex->depth_key);
+                continue;
+            }
             const double depth = std::max(c.depth, static_cast<double>(SD_NEAR)),
                          reach = frame.orthographic ? 1.0 : depth;
             constexpr double bound = SD_GUARD * SD_SUBPIXEL;

@@ -125,6 +125,11 @@ TEST_CASE("an ENVI raster of ours comes back with the same bits, wavelengths and
     CHECK(std::all_of(header.begin(), header.end(),
                       [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); }));
     CHECK(std::filesystem::file_size(folder / "a.img") == cube.values.size() * 4);
+    // What stands beside it under the same name is something else: the scene or the model that it shows.
+    for (const char* name : {"a.xml", "a.gltf", "a.obj"}) {
+        writeBytes(folder / name, "<scene/>");
+        CHECK_FALSE(looksLikeCube(folder / name));
+    }
 }
 
 TEST_CASE("a header of ours says what every reader of the format needs") {
@@ -243,6 +248,7 @@ TEST_CASE("an error in an ENVI header names file and line") {
     };
     refused("", "no wavelengths");
     refused("wavelength = {400}\nwavelength units = nm\n", ":8: 1 wavelengths for 2 bands");
+    refused("wavelength units = angstromers\nwavelength = {400, 500}\n", "'angstromers'");
     refused("wavelength = {400, 400}\nwavelength units = nm\n", "both 400");
     refused("wavelength = {400, x}\nwavelength units = nm\n", "'x'");
     refused("wavelength = {400, -1}\nwavelength units = nm\n", "'-1'");
