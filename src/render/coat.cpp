@@ -2,6 +2,7 @@
 
 #include "colour/detector.h"
 #include "render/fresnel.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -150,6 +151,15 @@ Coat coatOf(CoatModel model, double value, Widths widths) {
         // What a diffuse base sends up is let through as what comes down, per solid angle inside (n² of it):
         // 1 − r_inside = (1 − r_outside) / n², from the reciprocity of transmission.
         coat.inside = std::max(0.0, 1 - coat.meanThrough / (value * value));
+    }
+    return coat;
+}
+
+Coat coatOver(const Material& material, CoatModel model, double value, Widths widths) {
+    Coat coat = coatOf(model, value, widths);
+    if (material.diffuse && material.diffuse->isSeenThroughCoat) {
+        coat.inside = 0;
+        coat.index = 1;
     }
     return coat;
 }

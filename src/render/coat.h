@@ -11,6 +11,7 @@
 namespace spectrad {
 
 struct Detector;
+struct Material;
 
 /// Wavelengths from…to, nm.
 struct WavelengthSpan {
@@ -55,6 +56,9 @@ enum class CoatModel {
 };
 [[nodiscard]] AngleFunction fresnelOf(CoatModel model, double value);
 [[nodiscard]] Coat coatOf(CoatModel model, double value, Widths widths);
+/// As the base of this material takes it: one that is stated as seen through the coat knows nothing of what
+/// the coat sends back, and leaves what it is stated to.
+[[nodiscard]] Coat coatOver(const Material& material, CoatModel model, double value, Widths widths);
 
 /// Light that changes its wavelength below a coat passes it by other values of the coat's number on its way
 /// in than on its way out.

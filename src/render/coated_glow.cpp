@@ -90,10 +90,10 @@ void TermBuilder::addCoatedGlow(const Material& material, CoatModel model, const
     for (size_t j = 0; j < out.at.size(); ++j)
         weights.push_back(weightOf(out, j, number));
     for (size_t j = 0; j < out.at.size(); ++j)
-        exits.push_back(passage(coatOf(model, out.at[j], widths), weights[j]));
+        exits.push_back(passage(coatOver(material, model, out.at[j], widths), weights[j]));
     for (size_t i = 0; i < in.at.size(); ++i) {
         const std::optional<Curve> weight = weightOf(in, i, number);
-        const Coat coat = coatOf(model, in.at[i], widths);
+        const Coat coat = coatOver(material, model, in.at[i], widths);
         Base base;
         base.type = SD_LOBE_COATED;
         base.reflects = false;

@@ -125,7 +125,7 @@ void TermBuilder::addGloss(const Material& material) {
         const Curve polynomial =
             Curve::combined({ior}, [nodes, i](std::span<const double> v) { return nodes.weight(i, v[0]); });
         const Curve& weight = nodes.at.size() == 1 ? one() : polynomial;
-        const Coat coat = coatOf(CoatModel::glass, n, widths);
+        const Coat coat = coatOver(material, CoatModel::glass, n, widths);
         addCoatedBase(material, weight, coat, widths, !apart);
         if (only_ == Only::fluorescence) continue;
         if (material.gloss->reflects) {
@@ -157,7 +157,8 @@ void TermBuilder::addSpecular(const Material& material) {
         const Curve polynomial =
             Curve::combined({r0}, [nodes, i](std::span<const double> v) { return nodes.weight(i, v[0]); });
         const Curve& weight = nodes.at.size() == 1 ? one() : polynomial;
-        addCoatedBase(material, weight, coatOf(CoatModel::measured, nodes.at[i], widths), widths, !apart);
+        addCoatedBase(material, weight, coatOver(material, CoatModel::measured, nodes.at[i], widths), widths,
+                      !apart);
     }
     if (apart) addCoatedGlow(material, CoatModel::measured, r0, widths);
     if (only_ == Only::fluorescence) return;

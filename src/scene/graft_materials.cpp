@@ -108,8 +108,11 @@ Material GraftedMaterials::lifted(const ImportedMaterial& from) {
         } else {
             material.diffuse->reflectance = reflectance(from.diffuse);
         }
-        if (ior)
+        if (ior) {
+            // A model's colours are those that a surface shows, its gloss a highlight on top.
+            material.diffuse->isSeenThroughCoat = true;
             material.gloss = Gloss{resolver_.resolve(shortest(*ior), Role::index, where_), from.roughness};
+        }
     }
     if (from.normals)
         if (const auto normals = pictures_.use(*from.normals))

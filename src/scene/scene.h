@@ -105,6 +105,8 @@ struct Diffuse {
     std::optional<TextureUse> texture;
     std::optional<Select> select;
     double roughnessDegrees = 0;  ///< Oren–Nayar's σ; 0 is Lambert
+    /// The reflectance is that seen through the coat: bounces between coat and base are in it already.
+    bool isSeenThroughCoat = false;
 };
 /// Of a glossy surface, 0…1; GGX alpha is its square. Along the texture coordinates' u and across it.
 struct Roughness {

@@ -112,6 +112,7 @@ TEST_CASE("materials are lifted to spectra, only those that are worn, under name
     CHECK(curve.at(540) > curve.at(640));
     REQUIRE(paint.gloss);
     CHECK(paint.gloss->roughness.u == 0.3);
+    CHECK(paint.diffuse->isSeenThroughCoat);
     CHECK(paint.gloss->ior.curve().at(550) == 1.5);
 }
 
