@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "base/text.h"
+#include "scene/import_gltf.h"
 
 #include <assimp/ColladaMetaData.h>
 #include <assimp/DefaultIOSystem.h>
@@ -108,7 +109,7 @@ std::shared_ptr<const Mesh> convertMesh(const aiMesh& from, unsigned coordinates
     auto mesh = std::make_shared<Mesh>();
     mesh->index = usableTriangles(from, dropped);
     if (mesh->index.empty()) return nullptr;
-    if (from.HasVertexColors(0)) ++dropped.colours;
+    dropped.colours += from.HasVertexColors(0);
     mesh->name = oneLine(from.mName.C_Str());
     mesh->origin = centreOf(from, mesh->index);
     mesh->position.resize(from.mNumVertices);
@@ -162,6 +163,7 @@ NodeNames convertNodes(const aiScene& from, const std::vector<std::optional<std:
         aiString id = next.node->mName;
         if (next.node->mMetaData) next.node->mMetaData->Get(AI_METADATA_COLLADA_ID, id);
         names.id.emplace_back(id.C_Str());
+        names.node.push_back(next.node);
         ImportedNode node;
         node.name = oneLine(next.node->mName.C_Str());
         node.local = toAffine(next.node->mTransformation, *next.node);
@@ -231,6 +233,15 @@ std::string oneLine(std::string_view text) {
     return line;
 }
 
+std::string firstOf(const std::vector<std::string>& names) {
+    constexpr size_t most = 3;
+    std::string text;
+    for (size_t i = 0; i < std::min(names.size(), most); ++i)
+        text += (i > 0 ? ", " : "") + names[i];
+    if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
+    return text;
+}
+
 FormatTraits traitsOf(const std::string& importerName) {
     FormatTraits traits;
     const auto named = [&](std::string_view word) { return importerName.find(word) != std::string::npos; };
@@ -254,13 +265,24 @@ ImportedScene importWithAssimp(const fs::path& path, bool restricted) {
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     // No joining (above), no generated normals (withNormals() makes them), no flattening: the hierarchy and
     // its instances stay.
-    const aiScene* from = importer.ReadFile(path.string(), aiProcess_Triangulate);
-    if (!from || !from->mRootNode) throw InputError(errorText(importer));
+    const aiScene* read = importer.ReadFile(path.string(), aiProcess_Triangulate);
+    if (!read || !read->mRootNode) throw InputError(errorText(importer));
     const aiImporterDesc* format =
         importer.GetImporterInfo(static_cast<size_t>(importer.GetPropertyInteger("importerIndex", 0)));
     const FormatTraits traits = traitsOf(format ? format->mName : "");
     scene.inMetres = traits.gltf || traits.collada || traits.fbx;
     scene.photometric = traits.gltf;
+
+    aiScene* const from = importer.GetOrphanedScene();
+    std::optional<GltfFile> gltf;
+    if (traits.gltf) gltf = GltfFile::read(path, *from);
+    if (gltf) {
+        gltf->restoreIntegers(*from);
+        scene.remarks = gltf->remarks();
+    } else if (traits.gltf) {
+        scene.remarks.emplace_back(
+            "its JSON cannot be followed: lights and cameras that several nodes share may be lost");
+    }
 
     Dropped dropped;
     convertMaterials(*from, traits, scene);
@@ -277,8 +299,9 @@ ImportedScene importWithAssimp(const fs::path& path, bool restricted) {
     }
     const NodeNames names = convertNodes(*from, meshNumber, scene);
     if (traits.fbx) scene.nodes[0].local = fbxToMetresYUp(*from) * scene.nodes[0].local;
-    convertLights(*from, traits, names, scene);
-    convertCameras(*from, traits, names, traits.collada ? colladaOptics(path) : OpticsOfNode(), scene);
+    convertLights(gltf ? gltf->lights(names) : lightsByName(*from, names), traits, scene);
+    convertCameras(gltf ? gltf->cameras(names) : camerasByName(*from, names), traits, names,
+                   traits.collada ? colladaOptics(path) : OpticsOfNode(), scene);
     say(scene.remarks, dropped.points, "points left out");
     say(scene.remarks, dropped.lines, "lines left out");
     say(scene.remarks, dropped.broken, "triangles left out: a corner is missing or not finite");

@@ -38,6 +38,9 @@ struct FormatTraits {
 [[nodiscard]] bool isBlack(const std::array<double, 3>& c);
 /// The colour that Assimp puts where a file states none.
 [[nodiscard]] bool isAssimpsGrey(const std::array<double, 3>& c);
+/// The first three, and how many more there are.
+[[nodiscard]] std::string firstOf(const std::vector<std::string>& names);
+
 /// Sets the scene's materials and pictures.
 void convertMaterials(const aiScene& from, const FormatTraits& traits, ImportedScene& to);
 
@@ -65,17 +68,26 @@ class MaterialPictures {
     std::vector<std::pair<std::string, std::vector<std::string>>> leftOut_;
 };
 
-/// Assimp ties lights and cameras to nodes by name alone.
 struct NodeNames {
     std::unordered_map<std::string, std::vector<std::uint32_t>>
-        byName;                   ///< all nodes of a name, in document order
-    std::vector<std::string> id;  ///< of each node: its COLLADA id, else its name
+        byName;                       ///< all nodes of a name, in document order
+    std::vector<std::string> id;      ///< of each node: its COLLADA id, else its name
+    std::vector<const aiNode*> node;  ///< Assimp's
 };
+/// A light or camera and the node that it stands in.
+template <typename T>
+struct Carried {
+    T what;
+    std::uint32_t node = 0;
+};
+/// Assimp ties them to nodes by name alone.
+[[nodiscard]] std::vector<Carried<aiLight>> lightsByName(const aiScene& from, const NodeNames& names);
+[[nodiscard]] std::vector<Carried<aiCamera>> camerasByName(const aiScene& from, const NodeNames& names);
+
 using OpticsOfNode = std::unordered_map<std::string, ColladaOptics>;
-void convertLights(const aiScene& from, const FormatTraits& traits, const NodeNames& names,
-                   ImportedScene& to);
+void convertLights(const std::vector<Carried<aiLight>>& from, const FormatTraits& traits, ImportedScene& to);
 /// `optics`: what the file itself says, by the node's id; goes before what Assimp says.
-void convertCameras(const aiScene& from, const FormatTraits& traits, const NodeNames& names,
-                    const OpticsOfNode& optics, ImportedScene& to);
+void convertCameras(const std::vector<Carried<aiCamera>>& from, const FormatTraits& traits,
+                    const NodeNames& names, const OpticsOfNode& optics, ImportedScene& to);
 
 }  // namespace spectrad

@@ -182,14 +182,8 @@ void MaterialPictures::add(const aiMaterial& from, const std::array<double, 3>& 
 }
 
 void MaterialPictures::remark() const {
-    constexpr size_t most = 3;
-    for (const auto& [what, names] : leftOut_) {
-        std::string text = "pictures of " + what + " ignored: ";
-        for (size_t i = 0; i < std::min(names.size(), most); ++i)
-            text += (i > 0 ? ", " : "") + names[i];
-        if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
-        to_.remarks.push_back(text);
-    }
+    for (const auto& [what, names] : leftOut_)
+        to_.remarks.push_back("pictures of " + what + " ignored: " + firstOf(names));
 }
 
 }  // namespace spectrad

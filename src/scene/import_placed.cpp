@@ -18,8 +18,8 @@ bool finite(Vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Assimp ties lights and cameras to nodes by name alone. Where n of them share a name (a library node shown
-/// n times), the k-th goes with the k-th node; one that no node claims stands at the root.
+/// Where n lights or cameras share a name (a library node shown n times), the k-th goes with the k-th node;
+/// one that no node claims stands at the root.
 class NodeOfName {
   public:
     explicit NodeOfName(const NodeNames& names) : nodes_(names.byName) {}
@@ -122,14 +122,27 @@ std::optional<ImportedCamera> convert(const aiCamera& from, const FormatTraits& 
     return to;
 }
 
+template <typename T>
+std::vector<Carried<T>> byName(T* const* list, unsigned count, const NodeNames& names) {
+    NodeOfName node(names);
+    std::vector<Carried<T>> carried;
+    for (unsigned i = 0; i < count; ++i)
+        carried.push_back({*list[i], node.next(list[i]->mName.C_Str())});
+    return carried;
+}
+
 }  // namespace
 
-void convertLights(const aiScene& from, const FormatTraits& traits, const NodeNames& names,
-                   ImportedScene& to) {
-    NodeOfName node(names);
-    for (unsigned i = 0; i < from.mNumLights; ++i) {
-        const aiLight& source = *from.mLights[i];
-        const std::uint32_t place = node.next(source.mName.C_Str());
+std::vector<Carried<aiLight>> lightsByName(const aiScene& from, const NodeNames& names) {
+    return byName(from.mLights, from.mNumLights, names);
+}
+
+std::vector<Carried<aiCamera>> camerasByName(const aiScene& from, const NodeNames& names) {
+    return byName(from.mCameras, from.mNumCameras, names);
+}
+
+void convertLights(const std::vector<Carried<aiLight>>& from, const FormatTraits& traits, ImportedScene& to) {
+    for (const auto& [source, place] : from) {
         ImportedLight light;
         light.name = oneLine(source.mName.C_Str());
         const auto type = typeOf(source);
@@ -164,14 +177,11 @@ void convertLights(const aiScene& from, const FormatTraits& traits, const NodeNa
     }
 }
 
-void convertCameras(const aiScene& from, const FormatTraits& traits, const NodeNames& names,
-                    const OpticsOfNode& optics, ImportedScene& to) {
-    NodeOfName node(names);
-    for (unsigned i = 0; i < from.mNumCameras; ++i) {
-        const std::uint32_t place = node.next(from.mCameras[i]->mName.C_Str());
+void convertCameras(const std::vector<Carried<aiCamera>>& from, const FormatTraits& traits,
+                    const NodeNames& names, const OpticsOfNode& optics, ImportedScene& to) {
+    for (const auto& [source, place] : from) {
         const auto own = optics.find(names.id[place]);
-        auto camera =
-            convert(*from.mCameras[i], traits, own == optics.end() ? nullptr : &own->second, to.remarks);
+        auto camera = convert(source, traits, own == optics.end() ? nullptr : &own->second, to.remarks);
         if (!camera) continue;
         to.nodes[place].cameras.push_back(static_cast<std::uint32_t>(to.cameras.size()));
         to.cameras.push_back(std::move(*camera));
