@@ -285,7 +285,7 @@ ImportedScene importWithAssimp(const fs::path& path, bool restricted) {
     }
 
     Dropped dropped;
-    convertMaterials(*from, traits, scene);
+    convertMaterials(*from, traits, gltf ? &*gltf : nullptr, scene);
     std::vector<std::optional<std::uint32_t>> meshNumber(from->mNumMeshes);
     for (unsigned i = 0; i < from->mNumMeshes; ++i) {
         const aiMesh& source = *from->mMeshes[i];

@@ -41,8 +41,10 @@ struct FormatTraits {
 /// The first three, and how many more there are.
 [[nodiscard]] std::string firstOf(const std::vector<std::string>& names);
 
-/// Sets the scene's materials and pictures.
-void convertMaterials(const aiScene& from, const FormatTraits& traits, ImportedScene& to);
+class GltfFile;
+/// Sets the scene's materials and pictures. `gltf`: what the file says itself, or nullptr.
+void convertMaterials(const aiScene& from, const FormatTraits& traits, const GltfFile* gltf,
+                      ImportedScene& to);
 
 /// The pictures that a scene's materials name: those that a material here can show become part of it, others
 /// are counted by what they are of.
@@ -60,12 +62,14 @@ class MaterialPictures {
     [[nodiscard]] std::optional<ImportedPicture> read(const aiMaterial& from, aiTextureType type);
     [[nodiscard]] std::optional<std::uint32_t> embedded(const aiTexture& texture);
     void leaveOut(const std::string& what, const std::string& name);
+    void dropGlow(const aiMaterial& from, ImportedMaterial& to);
 
     const aiScene& from_;
     const FormatTraits& traits_;
     ImportedScene& to_;
     std::vector<std::optional<std::uint32_t>> embedded_;  ///< where each of Assimp's went
     std::vector<std::pair<std::string, std::vector<std::string>>> leftOut_;
+    std::vector<std::string> dark_;  ///< materials that would glow
 };
 
 struct NodeNames {

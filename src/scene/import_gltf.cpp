@@ -93,6 +93,7 @@ std::vector<std::vector<GltfPrimitive>> meshesOf(const Json& document) {
         for (const Json& from : member(mesh, "primitives")) {
             GltfPrimitive& to = primitives.emplace_back();
             const Json& attributes = member(from, "attributes");
+            to.material = indexIn(from, "material", member(document, "materials").size());
             to.position = numbersOf(document, attributes, "POSITION");
             to.normal = numbersOf(document, attributes, "NORMAL");
             for (unsigned set = 0; set < AI_MAX_NUMBER_OF_TEXTURECOORDS; ++set)
@@ -171,16 +172,19 @@ std::vector<std::uint32_t> rootsOf(const Json& document) {
 // ---- extensions
 // ---------------------------------------------------------------------------------------------------
 
+constexpr const char* emissiveStrength = "KHR_materials_emissive_strength";
+
 /// What is obeyed, what is said elsewhere (pictures that cannot be shown), and what shows nothing.
-constexpr std::array<std::string_view, 9> answeredFor{punctual,
-                                                      "KHR_texture_transform",
-                                                      "KHR_materials_ior",
-                                                      "KHR_materials_pbrSpecularGlossiness",
-                                                      "KHR_mesh_quantization",
-                                                      "KHR_draco_mesh_compression",
-                                                      "KHR_texture_basisu",
-                                                      "KHR_xmp",
-                                                      "KHR_xmp_json_ld"};
+constexpr std::array<std::string_view, 10> answeredFor{punctual,
+                                                       emissiveStrength,
+                                                       "KHR_texture_transform",
+                                                       "KHR_materials_ior",
+                                                       "KHR_materials_pbrSpecularGlossiness",
+                                                       "KHR_mesh_quantization",
+                                                       "KHR_draco_mesh_compression",
+                                                       "KHR_texture_basisu",
+                                                       "KHR_xmp",
+                                                       "KHR_xmp_json_ld"};
 
 /// Extensions that do nothing unless this member is above zero.
 constexpr std::array<std::pair<std::string_view, const char*>, 6> idleAtZero{
@@ -237,6 +241,15 @@ std::vector<std::string> extensionRemarks(const Json& document) {
         remarks.push_back(std::string(others.size() > 1 ? "extensions" : "extension") +
                           " left out: " + firstOf(others));
     return remarks;
+}
+
+std::vector<double> emissiveStrengthsOf(const Json& document) {
+    std::vector<double> strengths;
+    for (const Json& material : member(document, "materials"))
+        strengths.push_back(std::clamp(
+            number(member(member(material, "extensions"), emissiveStrength), "emissiveStrength", 1), 0.0,
+            1e30));
+    return strengths;
 }
 
 // ---- integers
@@ -314,6 +327,7 @@ std::optional<GltfFile> GltfFile::read(const std::filesystem::path& path, const 
     try {
         const Json document = jsonOf(path);
         file.meshes_ = meshesOf(document);
+        file.emissiveStrengths_ = emissiveStrengthsOf(document);
         file.lights_ = lightsOf(document);
         file.cameras_ = camerasOf(document);
         file.nodes_ = nodesOf(document);
@@ -354,6 +368,8 @@ bool GltfFile::match(const aiScene& scene) {
         for (unsigned i = 0; i < node->mNumMeshes; ++i) {
             const GltfPrimitive& primitive = meshes_[*own.mesh][i];
             primitiveOf_[node->mMeshes[i]] = primitive;
+            if (primitive.material && node->mMeshes[i] < scene.mNumMeshes)
+                materialOf_[scene.mMeshes[node->mMeshes[i]]->mMaterialIndex] = *primitive.material;
         }
     }
     return true;
@@ -378,6 +394,11 @@ std::vector<Carried<aiLight>> GltfFile::lights(const NodeNames& names) const {
 
 std::vector<Carried<aiCamera>> GltfFile::cameras(const NodeNames& names) const {
     return carried(names, nodeOf_, nodes_, cameras_, &GltfNode::camera);
+}
+
+double GltfFile::emissiveStrength(std::uint32_t assimpsMaterial) const {
+    const auto own = materialOf_.find(assimpsMaterial);
+    return own == materialOf_.end() ? 1 : emissiveStrengths_[own->second];
 }
 
 }  // namespace spectrad

@@ -22,6 +22,7 @@ struct GltfNumbers {
     bool isNormalized = false;
 };
 struct GltfPrimitive {
+    std::optional<std::uint32_t> material;
     GltfNumbers position, normal;
     std::vector<GltfNumbers> coordinates;  ///< of each set, TEXCOORD_0 first
 };
@@ -43,6 +44,8 @@ class GltfFile {
     /// In the order of the nodes; an object that several nodes carry is there several times.
     [[nodiscard]] std::vector<Carried<aiLight>> lights(const NodeNames& names) const;
     [[nodiscard]] std::vector<Carried<aiCamera>> cameras(const NodeNames& names) const;
+    /// What multiplies a material's emission; 1 if nothing is said.
+    [[nodiscard]] double emissiveStrength(std::uint32_t assimpsMaterial) const;
     /// Extensions that change what is seen and that nothing here knows.
     [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
 
@@ -50,6 +53,7 @@ class GltfFile {
     [[nodiscard]] bool match(const aiScene& scene);
 
     std::vector<std::vector<GltfPrimitive>> meshes_;
+    std::vector<double> emissiveStrengths_;
     std::vector<aiLight> lights_;
     std::vector<aiCamera> cameras_;
     std::vector<GltfNode> nodes_;
@@ -58,6 +62,7 @@ class GltfFile {
     // Assimp's objects as the file's.
     std::unordered_map<const aiNode*, std::uint32_t> nodeOf_;
     std::unordered_map<std::uint32_t, GltfPrimitive> primitiveOf_;
+    std::unordered_map<std::uint32_t, std::uint32_t> materialOf_;
 };
 
 }  // namespace spectrad

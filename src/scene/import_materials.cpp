@@ -1,4 +1,5 @@
 #include "scene/import_assimp.h"
+#include "scene/import_gltf.h"
 #include "spectrum/lift.h"
 
 #include <assimp/GltfMaterial.h>
@@ -94,7 +95,7 @@ bool inventedByAssimp(const aiMaterial& from, bool last, const FormatTraits& tra
     return !c || isAssimpsGrey(*c);
 }
 
-ImportedMaterial convert(const aiMaterial& from, bool last, const FormatTraits& traits,
+ImportedMaterial convert(const aiMaterial& from, bool last, const FormatTraits& traits, double strength,
                          std::vector<std::string>& remarks) {
     ImportedMaterial to;
     to.name = oneLine(from.GetName().C_Str());
@@ -112,8 +113,9 @@ ImportedMaterial convert(const aiMaterial& from, bool last, const FormatTraits& 
     if (to.ior && ior && *ior > 1 && *ior <= 4) to.ior = *ior;
 
     if (const auto emissive = colour(from, AI_MATKEY_COLOR_EMISSIVE))
-        to.emissive = emission(*emissive, traits,
-                               std::clamp(number(from, AI_MATKEY_EMISSIVE_INTENSITY).value_or(1), 0.0, 1e30));
+        to.emissive = emission(
+            *emissive, traits,
+            strength * std::clamp(number(from, AI_MATKEY_EMISSIVE_INTENSITY).value_or(1), 0.0, 1e30));
     return to;
 }
 
@@ -135,12 +137,14 @@ bool isAssimpsGrey(const std::array<double, 3>& c) {
     return std::all_of(c.begin(), c.end(), [](double v) { return std::abs(v - 0.6) < 1e-6; });
 }
 
-void convertMaterials(const aiScene& from, const FormatTraits& traits, ImportedScene& to) {
+void convertMaterials(const aiScene& from, const FormatTraits& traits, const GltfFile* gltf,
+                      ImportedScene& to) {
     MaterialPictures pictures(from, traits, to);
     size_t seenThrough = 0;
     for (unsigned i = 0; i < from.mNumMaterials; ++i) {
         const aiMaterial& source = *from.mMaterials[i];
-        to.materials.push_back(convert(source, i + 1 == from.mNumMaterials, traits, to.remarks));
+        to.materials.push_back(convert(source, i + 1 == from.mNumMaterials, traits,
+                                       gltf ? gltf->emissiveStrength(i) : 1, to.remarks));
         pictures.add(source, to.materials.back().diffuse, to.materials.back());
         if (transparent(source)) ++seenThrough;
     }

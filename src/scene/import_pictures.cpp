@@ -175,15 +175,27 @@ void MaterialPictures::add(const aiMaterial& from, const std::array<double, 3>& 
         if (from.GetTexture(unused.type, 0, &path) == aiReturn_SUCCESS && path.length > 0)
             leaveOut(unused.what, oneLine(path.C_Str()));
     }
+    dropGlow(from, to);
     aiString metallicRoughness;  // Assimp's place for glTF's
     if (traits_.gltf && from.GetTexture(AI_MATKEY_GLTF_PBRMETALLICROUGHNESS_METALLICROUGHNESS_TEXTURE,
                                         &metallicRoughness) == aiReturn_SUCCESS)
         leaveOut("metalness and roughness", oneLine(metallicRoughness.C_Str()));
 }
 
+/// A picture says where a surface glows: without it all of it would.
+void MaterialPictures::dropGlow(const aiMaterial& from, ImportedMaterial& to) {
+    const bool isShaped = from.GetTextureCount(aiTextureType_EMISSIVE) > 0 ||
+                          from.GetTextureCount(aiTextureType_EMISSION_COLOR) > 0;
+    if (!isShaped || isBlack(to.emissive)) return;
+    to.emissive = {0, 0, 0};
+    dark_.push_back("'" + to.name + "'");
+}
+
 void MaterialPictures::remark() const {
     for (const auto& [what, names] : leftOut_)
         to_.remarks.push_back("pictures of " + what + " ignored: " + firstOf(names));
+    if (!dark_.empty())
+        to_.remarks.push_back("emission left out where a picture shapes it: material " + firstOf(dark_));
 }
 
 }  // namespace spectrad

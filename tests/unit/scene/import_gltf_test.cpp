@@ -224,6 +224,31 @@ TEST_CASE("glTF: integers that no vertex may have are refused in one line that n
                           !Catch::Contains("\n"));
 }
 
+TEST_CASE("an emission that a picture shapes is left out with the picture, and that is said") {
+    const std::string pictures = R"(,"textures":[{"source":0}],"images":[{"uri":"p.png"}])";
+    const ImportedScene s =
+        square(R"("materials":[{"name":"shade","emissiveFactor":[1,1,1],"emissiveTexture":{"index":0}}])" +
+               pictures);
+    CHECK(s.materials[s.meshMaterial.at(0)].emissive == std::array<double, 3>{0, 0, 0});
+    CHECK(contains(s.remarks, "pictures of emission ignored"));
+    CHECK(contains(s.remarks, "emission left out where a picture shapes it: material 'shade'"));
+
+    const TemporaryFolder folder;
+    folder.write("a.mtl", "newmtl a\nKd 0.5 0.5 0.5\nKe 1 1 1\nmap_Ke black.png\nnewmtl b\nKe 1 1 1\n");
+    const ImportedScene obj = importModel(
+        folder.write("a.obj",
+                     "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 3 2 1\n"),
+        true);
+    CHECK(obj.materials[obj.meshMaterial.at(0)].emissive[0] == 0);
+    CHECK(obj.materials[obj.meshMaterial.at(1)].emissive[0] == 1);
+}
+
+TEST_CASE("glTF: an emission's strength counts") {
+    const ImportedMaterial m = worn(
+        R"("emissiveFactor":[0.5,0,1],"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":500}})");
+    CHECK(m.emissive == std::array<double, 3>{250, 0, 500});
+}
+
 TEST_CASE("glTF: extensions of materials that are left out are said, those that do nothing are not") {
     std::vector<std::string> remarks;
     (void)worn(R"("extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1},
