@@ -105,7 +105,8 @@ unsigned coordinatesOf(const ImportedMaterial& material) {
 }
 
 /// nullptr if no triangle is left.
-std::shared_ptr<const Mesh> convertMesh(const aiMesh& from, unsigned coordinates, Dropped& dropped) {
+std::shared_ptr<const Mesh> convertMesh(const aiMesh& from, const FormatTraits& traits, unsigned coordinates,
+                                        Dropped& dropped) {
     auto mesh = std::make_shared<Mesh>();
     mesh->index = usableTriangles(from, dropped);
     if (mesh->index.empty()) return nullptr;
@@ -132,6 +133,8 @@ std::shared_ptr<const Mesh> convertMesh(const aiMesh& from, unsigned coordinates
     // is a length in the file's unit, so it would eat the detail of small models: only what is equal is
     // joined here.
     weldIdentical(*mesh);
+    // Meshes without normals are flat: glTF 2.0, 3.7.2.1.
+    if (traits.gltf && !normals) return std::make_shared<Mesh>(withNormals(*mesh, Normals::flat));
     return mesh;
 }
 
@@ -291,7 +294,7 @@ ImportedScene importWithAssimp(const fs::path& path, bool restricted) {
         const aiMesh& source = *from->mMeshes[i];
         const std::uint32_t material =
             source.mMaterialIndex < scene.materials.size() ? source.mMaterialIndex : 0;
-        auto mesh = convertMesh(source, coordinatesOf(scene.materials[material]), dropped);
+        auto mesh = convertMesh(source, traits, coordinatesOf(scene.materials[material]), dropped);
         if (!mesh) continue;
         meshNumber[i] = static_cast<std::uint32_t>(scene.meshes.size());
         scene.meshes.push_back(std::move(mesh));

@@ -224,6 +224,26 @@ TEST_CASE("glTF: integers that no vertex may have are refused in one line that n
                           !Catch::Contains("\n"));
 }
 
+TEST_CASE("glTF: a mesh without normals is flat, one with normals keeps them") {
+    const ImportedScene bare = square(R"("materials":[{}])");
+    const Mesh flat = withNormals(*bare.meshes.at(0), Normals::file);
+    CHECK(flat.triangles() == 2);
+    for (size_t t = 0; t < 2; ++t)
+        for (size_t k = 1; k < 3; ++k)
+            CHECK(flat.normal[flat.index[3 * t]] == flat.normal[flat.index[3 * t + k]]);
+    CHECK(flat.normal[flat.index[0]] != flat.normal[flat.index[3]]);
+    const Mesh averaged = withNormals(*bare.meshes[0], Normals::smooth);
+    CHECK(averaged.normal[averaged.index[0]] == averaged.normal[averaged.index[3]]);
+
+    Model model;
+    const std::string p = model.add(corners, 3, 5126, bounds),
+                      n = model.add(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, 3, 5126),
+                      i = model.add(twoTriangles, 1, 5123);
+    const ImportedScene smooth = model.imported(oneNode + mesh("\"POSITION\":" + p + ",\"NORMAL\":" + n, i));
+    CHECK(smooth.meshes.at(0)->position.size() == 4);
+    CHECK(smooth.meshes[0]->normal[0] == std::array<float, 3>{0, 0, 1});
+}
+
 TEST_CASE("an emission that a picture shapes is left out with the picture, and that is said") {
     const std::string pictures = R"(,"textures":[{"source":0}],"images":[{"uri":"p.png"}])";
     const ImportedScene s =
