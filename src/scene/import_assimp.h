@@ -36,6 +36,8 @@ struct FormatTraits {
 [[nodiscard]] std::string oneLine(std::string_view text);
 
 [[nodiscard]] bool isBlack(const std::array<double, 3>& c);
+/// Whether a glTF material is stated by KHR_materials_pbrSpecularGlossiness.
+[[nodiscard]] bool isSpecularGlossiness(const aiMaterial& from, const FormatTraits& traits);
 /// The colour that Assimp puts where a file states none.
 [[nodiscard]] bool isAssimpsGrey(const std::array<double, 3>& c);
 /// The first three, and how many more there are.

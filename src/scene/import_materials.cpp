@@ -75,6 +75,25 @@ void setMetallicRoughness(const aiMaterial& from, ImportedMaterial& to, std::vec
         to.ior = 1.5;  // glTF's own, unless an extension says otherwise
 }
 
+/// KHR_materials_pbrSpecularGlossiness: a specular colour at normal incidence over a diffuse one. Where a
+/// picture scales it, it says nothing of how strong that is.
+void setSpecularGlossiness(const aiMaterial& from, ImportedMaterial& to) {
+    to.roughness = 1 - std::clamp(number(from, AI_MATKEY_GLOSSINESS_FACTOR).value_or(1), 0.0, 1.0);
+    const auto specular = colour(from, AI_MATKEY_COLOR_SPECULAR).value_or(std::array<double, 3>{1, 1, 1});
+    if (isBlack(specular)) return;
+    const bool hasPicture = from.GetTextureCount(aiTextureType_SPECULAR) > 0;
+    const double most = std::clamp(*std::max_element(specular.begin(), specular.end()), 0.0, 1.0);
+    constexpr double ofGlass = 0.2;  // more is a metal's: an index of 2.6
+    if (isBlack(to.diffuse) && from.GetTextureCount(aiTextureType_DIFFUSE) == 0 && most > ofGlass) {
+        to.metal = specular;
+        for (double& v : *to.metal)
+            v = std::clamp(v, 0.0, 1.0);
+        return;
+    }
+    const double root = std::sqrt(most);
+    to.ior = hasPicture || most > ofGlass ? 1.5 : (1 + root) / (1 - root);
+}
+
 /// Strength of the highlight has no physical reading; that there is one is taken as a dielectric coat.
 void setCoat(const aiMaterial& from, ImportedMaterial& to) {
     const auto specular = colour(from, AI_MATKEY_COLOR_SPECULAR);
@@ -101,16 +120,20 @@ ImportedMaterial convert(const aiMaterial& from, bool last, const FormatTraits& 
     to.name = oneLine(from.GetName().C_Str());
     if (inventedByAssimp(from, last, traits)) return to;
 
-    const auto base = traits.gltf ? colour(from, AI_MATKEY_BASE_COLOR) : std::nullopt;
+    const bool specularGlossiness = isSpecularGlossiness(from, traits);
+    const auto base = traits.gltf && !specularGlossiness ? colour(from, AI_MATKEY_BASE_COLOR) : std::nullopt;
     const auto diffuse = base ? base : colour(from, AI_MATKEY_COLOR_DIFFUSE);
     if (diffuse) to.diffuse = reflectance(*diffuse, traits);
     const bool metallicRoughness = base && number(from, AI_MATKEY_METALLIC_FACTOR).has_value();
     if (metallicRoughness)
         setMetallicRoughness(from, to, remarks);
+    else if (specularGlossiness)
+        setSpecularGlossiness(from, to);
     else
         setCoat(from, to);
     const auto ior = number(from, AI_MATKEY_REFRACTI);
-    if (to.ior && ior && *ior > 1 && *ior <= 4) to.ior = *ior;
+    if (to.ior && ior && *ior > 1 && *ior <= 4 && !specularGlossiness) to.ior = *ior;
+    if (traits.gltf && ior == 1) to.ior.reset();  // elsewhere 1 is what files say that mean nothing by it
 
     if (const auto emissive = colour(from, AI_MATKEY_COLOR_EMISSIVE))
         to.emissive = emission(
@@ -131,6 +154,10 @@ bool transparent(const aiMaterial& from) {
 
 bool isBlack(const std::array<double, 3>& c) {
     return c[0] <= 0 && c[1] <= 0 && c[2] <= 0;
+}
+
+bool isSpecularGlossiness(const aiMaterial& from, const FormatTraits& traits) {
+    return traits.gltf && number(from, AI_MATKEY_GLOSSINESS_FACTOR).has_value();
 }
 
 bool isAssimpsGrey(const std::array<double, 3>& c) {

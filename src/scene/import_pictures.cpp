@@ -143,7 +143,7 @@ std::optional<ImportedPicture> MaterialPictures::read(const aiMaterial& from, ai
 
 void MaterialPictures::add(const aiMaterial& from, const std::array<double, 3>& stated,
                            ImportedMaterial& to) {
-    to.colours = read(from, aiTextureType_BASE_COLOR);
+    if (!isSpecularGlossiness(from, traits_)) to.colours = read(from, aiTextureType_BASE_COLOR);
     if (!to.colours) to.colours = read(from, aiTextureType_DIFFUSE);
     // glTF and OBJ multiply a picture by the colour beside it; elsewhere it takes the colour's place.
     if (to.colours && (traits_.gltf || (traits_.obj && statesColour(from)))) {

@@ -269,6 +269,39 @@ TEST_CASE("glTF: an emission's strength counts") {
     CHECK(m.emissive == std::array<double, 3>{250, 0, 500});
 }
 
+TEST_CASE("glTF: an index of 1 is no coat, any other is the coat's") {
+    const auto ior = [](const std::string& index) {
+        return worn(
+                   R"("pbrMetallicRoughness":{"metallicFactor":0},"extensions":{"KHR_materials_ior":{"ior":)" +
+                   index + "}}")
+            .ior;
+    };
+    CHECK_FALSE(ior("1.0"));
+    CHECK(ior("1.8").value_or(0) == Approx(1.8));
+}
+
+TEST_CASE("glTF: specular and glossiness are a diffuse colour under a coat, a black one is a metal") {
+    const auto material = [](const std::string& content) {
+        return worn(R"("extensions":{"KHR_materials_pbrSpecularGlossiness":{)" + content + "}}");
+    };
+    const ImportedMaterial matt =
+        material(R"("diffuseFactor":[0.8,0.1,0.1,1],"specularFactor":[0,0,0],"glossinessFactor":0)");
+    CHECK(matt.diffuse[0] == Approx(0.8));
+    CHECK(matt.diffuse[1] == Approx(0.1));
+    CHECK_FALSE(matt.metal);
+    CHECK_FALSE(matt.ior);
+    const ImportedMaterial paint = material(
+        R"("diffuseFactor":[0.8,0.1,0.1,1],"specularFactor":[0.04,0.04,0.04],"glossinessFactor":0.75)");
+    CHECK_FALSE(paint.metal);
+    CHECK(paint.ior.value_or(0) == Approx(1.5).epsilon(1e-5));
+    CHECK(paint.roughness == Approx(0.25));
+    CHECK(material(R"("diffuseFactor":[0.8,0.1,0.1,1])").ior.value_or(0) == 1.5);
+    const ImportedMaterial gold =
+        material(R"("diffuseFactor":[0,0,0,1],"specularFactor":[1,0.7,0.3],"glossinessFactor":0.5)");
+    REQUIRE(gold.metal);
+    CHECK((*gold.metal)[1] == Approx(0.7));
+}
+
 TEST_CASE("glTF: extensions of materials that are left out are said, those that do nothing are not") {
     std::vector<std::string> remarks;
     (void)worn(R"("extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1},
