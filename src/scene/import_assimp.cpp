@@ -59,7 +59,7 @@ class WatchedFiles : public Assimp::DefaultIOSystem {
 // ----------------------------------------------------------------------------------------------------------
 
 struct Dropped {
-    size_t points = 0, lines = 0, broken = 0, colours = 0;
+    size_t points = 0, lines = 0, broken = 0, colours = 0, skins = 0, morphs = 0;
 };
 
 bool finite(const aiVector3D& v) {
@@ -111,6 +111,8 @@ std::shared_ptr<const Mesh> convertMesh(const aiMesh& from, const FormatTraits& 
     mesh->index = usableTriangles(from, dropped);
     if (mesh->index.empty()) return nullptr;
     dropped.colours += from.HasVertexColors(0);
+    dropped.skins += from.mNumBones > 0;
+    dropped.morphs += from.mNumAnimMeshes > 0;
     mesh->name = oneLine(from.mName.C_Str());
     mesh->origin = centreOf(from, mesh->index);
     mesh->position.resize(from.mNumVertices);
@@ -312,6 +314,9 @@ ImportedScene importWithAssimp(const fs::path& path, bool restricted) {
         throw InputError(nothingIn(scene));
     if (scene.meshes.empty()) scene.remarks.push_back("holds no triangles");
     say(scene.remarks, dropped.colours, "meshes have colours at their vertices: ignored");
+    say(scene.remarks, dropped.skins,
+        "meshes have bones: shown as they are stored, without the pose that the bones give them");
+    say(scene.remarks, dropped.morphs, "meshes have morph targets: left out, whatever their weights");
     say(scene.remarks, from->mNumAnimations, "animations ignored");
     return scene;
 }

@@ -244,6 +244,27 @@ TEST_CASE("glTF: a mesh without normals is flat, one with normals keeps them") {
     CHECK(smooth.meshes[0]->normal[0] == std::array<float, 3>{0, 0, 1});
 }
 
+TEST_CASE("glTF: bones and morph targets are said to be left out") {
+    Model model;
+    const std::string p = model.add(corners, 3, 5126, bounds), i = model.add(twoTriangles, 1, 5123),
+                      joints = model.add(std::vector<std::uint8_t>(16, 0), 4, 5121),
+                      weights = model.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0},
+                                          4, 5126),
+                      target =
+                          model.add(std::vector<float>(12, 2), 3, 5126, R"(,"min":[2,2,2],"max":[2,2,2])");
+    const std::string bind =
+        model.add(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, 16, 5126);
+    const std::string attributes = "\"POSITION\":" + p;
+    const ImportedScene morphed =
+        model.imported(oneNode + mesh(attributes, i, R"(,"targets":[{"POSITION":)" + target + "}]"));
+    CHECK(contains(morphed.remarks, "1 meshes have morph targets"));
+    CHECK_FALSE(contains(morphed.remarks, "bones"));
+    const ImportedScene skinned = model.imported(
+        R"("scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0,"skin":0},{"name":"joint"}],"skins":[{"joints":[1],"inverseBindMatrices":)" +
+        bind + "}]," + mesh(attributes + ",\"JOINTS_0\":" + joints + ",\"WEIGHTS_0\":" + weights, i));
+    CHECK(contains(skinned.remarks, "1 meshes have bones"));
+}
+
 TEST_CASE("an emission that a picture shapes is left out with the picture, and that is said") {
     const std::string pictures = R"(,"textures":[{"source":0}],"images":[{"uri":"p.png"}])";
     const ImportedScene s =
