@@ -84,8 +84,10 @@ double tolerance(const Shape& shape, const Affine& toWorld, const View& view) {
         const double distance = length(centre) - radius * scale;
         pixel *= std::max(distance, 0.01 * radius * scale);
         // Off the axis, by the angle φ, a length across the line of sight fills 1 / cos²φ as many pixels as
-        // on it, as far out as the picture's corners see it at least.
-        const double corner = std::hypot(view.width, view.height) / 2 / view.pixelsPerSlope,
+        // on it; as far out as the picture sees it, were it 2.4 times as wide as high: how wide it is must
+        // not matter.
+        constexpr double widest = 2.4;
+        const double corner = std::hypot(widest, 1.0) * view.height / 2 / view.pixelsPerSlope,
                      outermost = std::atan2(std::hypot(centre.x, centre.y), -centre.z) +
                                  std::asin(std::min(1.0, radius * scale / length(centre)));
         const double slope = outermost < std::atan(corner) ? std::tan(outermost) : corner;

@@ -209,7 +209,7 @@ TEST_CASE("samples with which a pass cannot be rendered are passed over, not an 
     const Folder folder;
     folder.write("s.xml", R"(<scene version="1"><wavelengths from="400" to="700" step="50"/>
 <material name="a"><diffuse reflectance="400:0.2 700:0.7"/></material><material name="picture"><diffuse texture="pass:p"/></material>
-<node name="src"><sphere radius="0.5" material="a"/><light type="directional" direction="0 -0.3 -1" spectrum="constant:1" scale="1"/>
+<node name="src"><sphere radius="0.5" material="a"/><light type="directional" direction="0 -0.5 -1" spectrum="constant:1" scale="1"/>
 <node translate="0 0 -1"><plane size="8" material="a"/></node><camera name="pc" fov="40" look-from="0.4 0.3 3" look-at="0.4 0 0" size="48x48"/></node>
 <node name="wall" translate="0 50 0"><plane size="2" material="picture"/><light type="directional" direction="-1 -0.3 -1" spectrum="illuminants/D65" illuminance="100 lx"/><camera name="gc" fov="40" look-from="0.5 0.5 3" look-at="0 0 0" size="48x40"/></node>
 <pass name="p" camera="pc" of="src" as="reflectance"/><pass name="main" camera="gc" of="wall"/></scene>)");
