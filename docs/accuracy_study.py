@@ -20,7 +20,7 @@ import sys
 
 LAMPS = ['A', 'D65', 'FL11', 'LED-B3', 'HP1', 'FL3.15']
 SCENES = ['colorchecker', 'paper/figure2', 'paper/figure3', 'paper/figure4', 'fluorescence', 'still-life', 'gloss-ladder',
-          'metal-ladder', 'textured', 'pavilion']
+          'metal-ladder', 'textured', 'relief', 'pavilion']
 SIDE = 160
 BUDGET = '100s'
 ROWS = [('slit-5nm', 'slit, 5 nm'), ('slit-10nm', 'slit, 10 nm'), ('slit-20nm', 'slit, 20 nm'),
