@@ -83,8 +83,8 @@ std::map<std::string, std::string> takenWith(const ExposeArguments& arguments, c
 }
 
 void writeRaw(const ExposeArguments& arguments, const ChannelImage& raw,
-              const std::vector<std::string>& channels, const Sensor& sensor) {
-    const std::map<std::string, std::string> said = takenWith(arguments, sensor);
+              const std::vector<std::string>& channels, const Sensor& sensor,
+              const std::map<std::string, std::string>& said) {
     if (extensionOf(arguments.output) == ".exr") {
         writeChannelsExr(arguments.output, raw.width, raw.height, channels, floatPlanes(raw, channels), said);
         return;
@@ -100,10 +100,9 @@ void writeRaw(const ExposeArguments& arguments, const ChannelImage& raw,
 /// Channels balanced on the white, through the matrix fitted to the chart under it. Where one channel is full
 /// all are cut as low: what is brighter than the sensor can tell is white, not the colour of the others.
 DevelopedPicture rendered(const ExposeArguments& arguments, const ChannelImage& electrons,
-                          double fullElectrons, const Detector& detector, const Curve& light,
-                          const Library& library, const SpectrumResolver& resolver) {
-    const Detector eye = standardObserver(library);
-    const Spectrum chart = resolver.resolve(arguments.chart, Role::any, {});
+                          double fullElectrons, const Observation& observation, const Curve& light) {
+    const Detector &detector = observation.detector(), &eye = observation.standard();
+    const Spectrum chart = observation.resolver().resolve(arguments.chart, Role::any, {});
     if (chart.quantity != Quantity::reflectance && chart.quantity != Quantity::unknown)
         throw InputError("--chart: '" + arguments.chart + "' is no chart of reflectances");
     std::vector<Curve> patches;
@@ -138,16 +137,16 @@ void requireElectrons(const Detector& detector) {
 }
 
 /// The spectrum that the picture is balanced on. Throws InputError where it is not known.
-Spectrum whiteLight(const ExposeArguments& arguments, const CubeInfo& info, const Observation& observation,
-                    const Library& library, const SpectrumResolver& resolver) {
+Spectrum whiteLight(const ExposeArguments& arguments, const CubeInfo& info, const Observation& observation) {
     if (observation.light()) return *observation.light();
+    const SpectrumResolver& resolver = observation.resolver();
     const std::string& wanted = arguments.observer.white;
     if (!wanted.empty()) return resolver.resolve(wanted, Role::light, {});
     const auto name = info.attributes.find(attribute::white);
     if (name == info.attributes.end()) return resolver.resolve("constant:1", Role::light, {});
     if (!info.attributes.contains(attribute::whiteXyz))
         return resolver.resolve(name->second, Role::light, {});
-    if (auto stated = statedLight(info, standardObserver(library), resolver)) return *stated;
+    if (auto stated = statedLight(info, observation.standard(), resolver)) return *stated;
     throw InputError(
         fmt::format("the spectrum of the scene's first light, '{}', is not known here: --picture "
                     "needs --white LIGHT",
@@ -180,10 +179,8 @@ ExitCode exposeCube(const ExposeArguments& arguments) {
     const Observation observation(arguments.observer, cube.info, console.notes());
     const Detector& detector = observation.detector();
     requireElectrons(detector);
-    const Library library = Library::open();
-    const SpectrumResolver resolver(library, ".", false, console.notes());
     std::optional<Spectrum> light;
-    if (!arguments.picture.empty()) light = whiteLight(arguments, cube.info, observation, library, resolver);
+    if (!arguments.picture.empty()) light = whiteLight(arguments, cube.info, observation);
     std::optional<Mosaic> mosaic;
     if (!arguments.mosaic.empty()) mosaic.emplace(arguments.mosaic, detector.channels);
     if (extension == ".png" && !mosaic && detector.size() != 1 && detector.size() != 3)
@@ -200,18 +197,20 @@ ExitCode exposeCube(const ExposeArguments& arguments) {
     RawImage raw = mosaic ? expose(sampled(signals, *mosaic), sensor) : expose(signals, sensor);
     if (raw.fullPixels > 0)
         console.notes().say(fmt::format("{} of {} pixels are full", raw.fullPixels, signals.pixels()));
-    writeRaw(arguments, raw.values, mosaic ? std::vector<std::string>{"raw"} : detector.channels, sensor);
+    const std::map<std::string, std::string> said = takenWith(arguments, sensor);
+    const std::vector<std::string> channels = mosaic ? std::vector<std::string>{"raw"} : detector.channels;
+    writeRaw(arguments, raw.values, channels, sensor, said);
     Json out{{"output", arguments.output},
              {"unit", sensor.bits ? "counts" : "electrons"},
              {"electrons_per_signal", sensor.electronsPerSignal},
              {"full_pixels", raw.fullPixels},
-             {"taken_with", takenWith(arguments, sensor)},
-             {"channels", mosaic ? std::vector<std::string>{"raw"} : detector.channels}};
+             {"taken_with", said},
+             {"channels", channels}};
     if (!arguments.picture.empty()) {
         const ChannelImage electrons = electronsOf(std::move(raw.values), sensor);
         const DevelopedPicture picture =
             rendered(arguments, mosaic ? demosaiced(electrons, *mosaic) : electrons, fullElectrons(sensor),
-                     detector, light->curve(), library, resolver);
+                     observation, light->curve());
         writePng(arguments.picture, {picture.width, picture.height, 3, picture.rgb},
                  {{"Software", "spectrad " SPECTRAD_VERSION}}, pictureColour(displayFor(arguments.display)));
         out["picture"] = arguments.picture;

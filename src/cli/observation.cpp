@@ -57,8 +57,8 @@ void addObserverOptions(CLI::App& command, ObserverArguments& arguments) {
         ->type_name("LIGHT|XYZ|at:X,Y|image");
 }
 
-/// What a detector would see beyond the bands is missing from its channels: said where it is much.
-static void sayWhatIsOutside(const Detector& detector, const Wavelengths& grid, Notes& notes) {
+/// What a detector would see beyond the bands is missing from its channels: in words where it is much.
+static std::string seenOutside(const Detector& detector, const Wavelengths& grid) {
     constexpr double much = 0.01;
     double most = much;
     size_t worst = detector.size();
@@ -68,11 +68,11 @@ static void sayWhatIsOutside(const Detector& detector, const Wavelengths& grid, 
         const double share = all > 0 ? 1 - integrate(alone, grid.nm.front(), grid.nm.back()) / all : 0;
         if (share > most) most = share, worst = c;
     }
-    if (worst < detector.size())
-        notes.say(fmt::format(
-            "{} % of what '{}' of {} sees lies outside the cube's {} to {} nm, where it has no light",
-            rounded(100 * most, 3), detector.channels[worst], detector.name, shortest(grid.nm.front()),
-            shortest(grid.nm.back())));
+    if (worst == detector.size()) return {};
+    return fmt::format(
+        "{} % of what '{}' of {} sees lies outside the cube's {} to {} nm, where it has no light",
+        rounded(100 * most, 3), detector.channels[worst], detector.name, shortest(grid.nm.front()),
+        shortest(grid.nm.back()));
 }
 
 bool namesLight(const std::string& white) {
@@ -115,16 +115,15 @@ Observation::Observation(const ObserverArguments& arguments, const CubeInfo& inf
       filmStops_(arguments.filmStops),
       detector_(wantedDetector(arguments)) {
     if (!detector_.tristimulus) toXyz_ = towardsXyz(detector_, standard_);
-    if (!needsLight(info.kind)) {
-        weights_ = weightsOn(info.wavelengths, detector_);
-        return;
-    }
-    light_ = resolver_.resolve(namesLight(wanted_) ? wanted_ : daylight, Role::light, {});
-    weights_ = weightsOn(info.wavelengths, litBy(*light_, detector_, standard_));
+    if (needsLight(info.kind))
+        light_ = resolver_.resolve(namesLight(wanted_) ? wanted_ : daylight, Role::light, {});
+    const Detector seeing = light_ ? litBy(*light_, detector_, standard_) : detector_;
+    weights_ = weightsOn(info.wavelengths, seeing);
+    outside_ = seenOutside(seeing, info.wavelengths);
 }
 
 ChannelImage Observation::channels(const Cube& cube) const {
-    sayWhatIsOutside(light_ ? litBy(*light_, detector_, standard_) : detector_, info_.wavelengths, notes_);
+    if (!outside_.empty()) notes_.say(outside_);
     ChannelImage image(cube.info.width, cube.info.height, detector_.size());
     for (int y = 0; y < cube.info.height; ++y)
         observeRow(weights_, cube.row(y, 0), y, image);

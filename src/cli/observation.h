@@ -52,6 +52,8 @@ class Observation {
     [[nodiscard]] const Detector& detector() const { return detector_; }
     [[nodiscard]] const DetectorWeights& weights() const { return weights_; }
     [[nodiscard]] const std::optional<Spectrum>& light() const { return light_; }
+    [[nodiscard]] const SpectrumResolver& resolver() const { return resolver_; }
+    [[nodiscard]] const Detector& standard() const { return standard_; }  ///< CIE 1931
     /// This detector's channels of every pixel.
     [[nodiscard]] ChannelImage channels(const Cube& cube) const;
     /// This detector's channels of one spectrum, a value for each band.
@@ -78,13 +80,14 @@ class Observation {
     Notes& notes_;
     Library library_;
     SpectrumResolver resolver_;
-    Detector standard_;  ///< CIE 1931
+    Detector standard_;
     std::optional<FilmProjection> film_;
     double filmStops_;
     Detector detector_;
     std::optional<Spectrum> light_;  ///< of a cube that needs one
     DetectorWeights weights_;
-    XyzMatrix toXyz_;  ///< of a detector without X, Y, Z
+    std::string outside_;  ///< what is to be said of light beyond the bands; empty: nothing
+    XyzMatrix toXyz_;      ///< of a detector without X, Y, Z
 };
 
 /// The largest Y of an XYZ image.

@@ -91,6 +91,12 @@ Opened openHeader(const fs::path& path, Notes& notes) {
             envi::rasterFrom(envi::Header::parse(readFile(*header, largestHeader), *header), *header, notes)};
 }
 
+/// Without its offset.
+std::uintmax_t dataBytes(const envi::Raster& raster) {
+    return std::uintmax_t{raster.bandOrder.size()} * static_cast<unsigned>(raster.info.width) *
+           static_cast<unsigned>(raster.info.height) * *envi::bytesOfType(raster.dataType);
+}
+
 /// Reads the values line by line in the file's own order and puts each in its place.
 class EnviReader : public CubeReader {
   public:
@@ -146,9 +152,7 @@ class EnviReader : public CubeReader {
   private:
     void checkFileSize() const {
         std::error_code error;
-        const std::uintmax_t size = fs::file_size(path_, error),
-                             needed = std::uintmax_t{bands_} * static_cast<unsigned>(info().width) *
-                                      static_cast<unsigned>(info().height) * size_;
+        const std::uintmax_t size = fs::file_size(path_, error), needed = dataBytes(raster_);
         if (error) throw InputError({path_.string()}, "cannot be read: " + error.message());
         if (size < raster_.offset || size - raster_.offset < needed)
             throw InputError({path_.string()}, fmt::format("{} bytes, where its header calls for {} + {}",
@@ -225,12 +229,8 @@ bool isAsLargeAsItsEnviHeaderSays(const fs::path& path) {
     try {
         Notes unheard;
         const envi::Raster raster = openHeader(path, unheard).raster;
-        const std::uintmax_t values = std::uintmax_t{raster.bandOrder.size()} *
-                                      static_cast<unsigned>(raster.info.width) *
-                                      static_cast<unsigned>(raster.info.height);
         std::error_code error;
-        return fs::file_size(path, error) == raster.offset + values * *envi::bytesOfType(raster.dataType) &&
-               !error;
+        return fs::file_size(path, error) == raster.offset + dataBytes(raster) && !error;
     } catch (const InputError&) {
         return false;
     }

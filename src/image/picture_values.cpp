@@ -101,14 +101,17 @@ PictureValues decodePngValues(std::string_view bytes, const std::string& name) {
     if (!readHeader(png, head)) failRead();
     std::string misread = input.colourWarning;
     const PictureColour colour = colourOf(png, head, misread);
+    std::string profile = colour.srgb ? std::string() : profileOf(png, head);
+    // libpng also grumbles at profiles that it keeps.
+    if (colour.srgb || !profile.empty()) misread.clear();
     PictureValues picture{static_cast<int>(png_get_image_width(png, head)),
                           static_cast<int>(png_get_image_height(png, head)),
                           png_get_channels(png, head),
                           static_cast<std::uint16_t>(png_get_bit_depth(png, head) == 16 ? 65535 : 255),
                           {},
                           colour,
-                          colour.srgb ? std::string() : profileOf(png, head),
-                          colour.srgb ? std::string() : std::move(misread)};
+                          std::move(profile),
+                          std::move(misread)};
     const size_t rowBytes = png_get_rowbytes(png, head), height = static_cast<size_t>(picture.height);
     // deflate makes at most 1032 bytes of one: a damaged header claims more.
     if (rowBytes * height / 4096 > bytes.size())

@@ -278,7 +278,7 @@ ImportedScene importWithAssimp(const fs::path& path, bool restricted) {
     scene.inMetres = traits.gltf || traits.collada || traits.fbx;
     scene.photometric = traits.gltf;
 
-    aiScene* const from = importer.GetOrphanedScene();
+    const std::unique_ptr<aiScene> from(importer.GetOrphanedScene());
     std::optional<GltfFile> gltf;
     if (traits.gltf) gltf = GltfFile::read(path, *from);
     if (gltf) {

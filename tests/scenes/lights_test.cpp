@@ -199,3 +199,32 @@ TEST_CASE("several lights add up, of one spectrum or of several") {
         worst = std::max(worst, std::abs(together.values[i] - sum[i]) / sum[i]);
     CHECK(worst <= 2e-6);
 }
+
+TEST_CASE("a ground of two triangles is lit right below the eye, as far as floats of its corners reach") {
+    if (!haveDevice()) return;
+    constexpr int width = 60, height = 40;
+    RenderSettings settings;
+    settings.samples = 1;
+    constexpr double eye = 1.7, slope = 0.4;  // m; of half the picture's height, looking straight down
+    for (const auto& [size, bound] : {std::pair{1e3, 3e-5}, {1e4, 3e-4}, {1e5, 3e-3}}) {
+        const Image image = imageOf(
+            fmt::format(
+                R"(<scene version="1"><wavelengths>550</wavelengths><material name="g"><diffuse reflectance="constant:1"/></material>
+<node rotate="1 0 0 -90"><plane size="{}" material="g"/></node><light type="point" position="0 1 -0.3" spectrum="constant:1" scale="1"/>
+<camera fov="{}" look-from="0.3 {} 0.2" look-at="0.3 0 0.2" up="0 0 -1" size="{}x{}"/></scene>)",
+                size, 2 * std::atan(slope) * 180 / std::numbers::pi, eye, width, height),
+            settings);
+        std::vector<double> error;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const double pixel = 2 * slope * eye / height;
+                const double px = 0.3 + (x + 0.5 - width / 2.0) * pixel,
+                             pz = 0.2 + (y + 0.5 - height / 2.0) * pixel;
+                const double square = px * px + 1 + (pz + 0.3) * (pz + 0.3);
+                error.push_back(std::abs(image.at(x, y) * std::numbers::pi * square * std::sqrt(square) - 1));
+            }
+        std::nth_element(error.begin(), error.begin() + width * height / 2, error.end());
+        INFO(size << " m: median " << error[width * height / 2]);
+        CHECK(error[width * height / 2] < bound);
+    }
+}
