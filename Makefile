@@ -14,7 +14,7 @@ build: $(PROGRAM)
 
 ##demo            install what is missing, build, render the showcase scenes into out/
 .PHONY: demo
-PICTURES := colorchecker colorchecker-FL11 still-life pavilion chess figure5 display gloss-ladder metal-ladder fluorescence textured relief
+PICTURES := colorchecker colorchecker-FL11 still-life pavilion chess figure5 display coloured-shadows gloss-ladder metal-ladder fluorescence textured relief
 demo: packages $(PICTURES:%=out/%.exr) $(PICTURES:%=out/%.png)
 	@echo "Spectral images (W.m^-2.sr^-1.nm^-1): $(PICTURES:%=out/%.exr)"
 	@echo "Pictures of them for the screen:      $(PICTURES:%=out/%.png)"

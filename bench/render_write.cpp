@@ -43,7 +43,8 @@ void run(const fs::path& scene, int rounds) {
     Notes notes;
     RenderSettings settings;
     settings.size = {1920, 1080};
-    const Plan plan = makePlan(loadScene(scene, library, {}, notes), settings, library, notes);
+    const Plan plan = makePlan(loadScene(scene, library, {{"scene.shadows=false"}, false}, notes), settings,
+                               library, notes);
     Renderer renderer(device, plan);
     CubeInfo info;
     info.width = plan.view.width;

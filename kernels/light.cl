@@ -2,6 +2,7 @@
 #include "blocks.h"
 #include "mapping.h"
 #include "relief.h"
+#include "shadow.h"
 
 /* Irradiance at normal incidence per unit of the group's spectrum, and where it comes from. */
 static vfloat arriving(sd_light light, v3 position, v3* to_light) {
@@ -78,10 +79,48 @@ static void shade_light(sd_lobe lobe, global const sd_piece* tables, sd_light li
     }
 }
 
+#ifdef HAS_SHADOWS
+#define REACHED_ARGUMENT , const vuint* reached
+#define REACHED , reached
+/* Lanes of `mask` that light k reaches: a bit a light. */
+#define LIT(mask, k) ((mask) & ((reached[(k) >> 5] >> ((k)&31) & 1u) != 0))
+
+/* Places that look for their lights: of each lane what it sees of its own triangle. */
+typedef struct seekers {
+    v3 position, normal, lifted;
+    vint found;
+} seekers;
+
+static inline v3 choose3(v3 a, v3 b, vint second) {
+    const v3 r = {select(a.x, b.x, second), select(a.y, b.y, second), select(a.z, b.z, second)};
+    return r;
+}
+
+/* Which lights reach the lanes: turned towards them, and nothing between. Lanes of many triangles ask together. */
+static void seek(seekers at, global const sd_light* lights, uint light_count, caster_tree tree, vuint* reached) {
+    for (uint w = 0; w < SHADOW_WORDS; ++w) reached[w] = 0;
+    for (uint k = 0; k < light_count; ++k) {
+        const sd_light light = lights[k];
+        vint open = at.found;
+        if (light.shadows) {
+            v3 to_light;
+            const vfloat strength = arriving(light, at.position, &to_light);
+            open &= (strength > 0.0f) & (dot3(at.normal, to_light) > 0.0f);
+            if (ANY(open)) open = unhidden(tree, light, at.lifted, open);
+        }
+        reached[k >> 5] |= select((vuint)0, (vuint)(1u << (k & 31)), open);
+    }
+}
+#else
+#define REACHED_ARGUMENT
+#define REACHED
+#define LIT(mask, k) (mask)
+#endif
+
 /* All lobes of a material under all lights, for the lanes of `mask`; sums: g of the material's first term at the lanes' first pixel. */
 static void shade(sd_material material, global const sd_lobe* lobes, global const sd_piece* tables, global const sd_light* lights,
                   uint light_count, uint groups, surface s, sd_frame frame, vfloat x, vfloat y, vint mask, paint p,
-                  global float* sums) {
+                  global float* sums REACHED_ARGUMENT) {
     for (uint l = 0; l < material.lobes; ++l) {
         const sd_lobe lobe = lobes[material.first_lobe + l];
         if (lobe.type == SD_LOBE_EMISSION) {
@@ -96,7 +135,7 @@ static void shade(sd_material material, global const sd_lobe* lobes, global cons
         }
 #endif
         const lobe_view at_view = view_of(lobe, tables, s);
-        for (uint k = 0; k < light_count; ++k) shade_light(lobe, tables, lights[k], groups, s, mask, at_view, p, sums);
+        for (uint k = 0; k < light_count; ++k) shade_light(lobe, tables, lights[k], groups, s, LIT(mask, k), at_view, p, sums);
     }
 }
 
@@ -110,7 +149,11 @@ BLOCK_GROUP kernel void light_block(global const ulong* keys, global const uint*
                                     uint groups, global const sd_texture* textures, global const float* texels, sd_frame frame,
                                     constant int* pattern_x, constant int* pattern_y, constant int* pattern_used,
                                     uint words, uint blocks, global const uint* sets, global const uint* block_first,
-                                    global float* g) {
+                                    global float* g
+#ifdef HAS_SHADOWS
+                                    , global const uint* casters, uint caster_count, uint leaves, global const float* bounds
+#endif
+) {
     const uint block = BLOCK_ID;
     if (block >= blocks) return;
     const uint first = block_first[block], end = block_first[block + 1];
@@ -123,6 +166,9 @@ BLOCK_GROUP kernel void light_block(global const ulong* keys, global const uint*
     const int y0 = (row + frame.first_row) * SD_SUBPIXEL - frame.height * (SD_SUBPIXEL / 2);
     global const ulong* lanes = keys + (size_t)block * SD_BLOCK * SLOTS;
     const paint p = {textures, texels, (float)frame.samples};
+#ifdef HAS_SHADOWS
+    const caster_tree tree = {index, camera, casters, bounds, caster_count, leaves};
+#endif
     uint seen_material = 0, seen_offset = 0;
     int known = 0;
     for (int lane = FIRST_LANE; lane < END_LANE; lane += VW) {
@@ -132,6 +178,30 @@ BLOCK_GROUP kernel void light_block(global const ulong* keys, global const uint*
         vint todo = VLOAD(pattern_used + lane % PATTERN);
         const int pixel = lane / SLOTS;
         const int x0 = (col + pixel) * SD_SUBPIXEL - frame.width * (SD_SUBPIXEL / 2);
+        const vfloat x = V_FLOAT(x0 + VLOAD(pattern_x + lane % PATTERN)), y = V_FLOAT(y0 + VLOAD(pattern_y + lane % PATTERN));
+#ifdef HAS_SHADOWS
+        seekers at;
+        at.position = at.normal = at.lifted = (v3){0.0f, 0.0f, 0.0f};
+        at.found = 0;
+        vint waiting = todo & (id != NO_TRIANGLE);
+        for (int i = 0; i < VW && ANY(waiting); ++i) {
+            const uint triangle = ids[i];
+            const vint mask = waiting & (id == triangle ? (vint)-1 : (vint)0);
+            if (!ANY(mask)) continue;
+            waiting &= ~mask;
+            surface s = surface_at(index + 3 * (size_t)triangle, camera, camera_normal, coordinates, tangents, frame, x, y);
+#ifdef HAS_RELIEF
+            const uint relief = materials[material_of(triangle, triangle_material)].relief;
+            if (relief != 0) bend(&s, index + 3 * (size_t)triangle, camera, coordinates, p, relief, mask);
+#endif
+            at.position = choose3(at.position, s.position, mask);
+            at.normal = choose3(at.normal, s.normal, mask);
+            at.lifted = choose3(at.lifted, s.lifted, mask);
+            at.found |= mask;
+        }
+        vuint reached[SHADOW_WORDS];
+        seek(at, lights, light_count, tree, reached);
+#endif
         for (int i = 0; i < VW && ANY(todo); ++i) {
             const uint triangle = ids[i];
             const vint mask = todo & (id == triangle ? (vint)-1 : (vint)0);
@@ -151,7 +221,6 @@ BLOCK_GROUP kernel void light_block(global const ulong* keys, global const uint*
                 known = 1;
             }
             global float* material_sums = sums + seen_offset * SD_BLOCK + pixel;
-            const vfloat x = V_FLOAT(x0 + VLOAD(pattern_x + lane % PATTERN)), y = V_FLOAT(y0 + VLOAD(pattern_y + lane % PATTERN));
             if (triangle == NO_TRIANGLE) {
 #ifdef HAS_MAPPING
                 if (material.terms > 0 && lobes[material.first_lobe].texture != 0) {
@@ -166,7 +235,7 @@ BLOCK_GROUP kernel void light_block(global const ulong* keys, global const uint*
 #ifdef HAS_RELIEF
             if (material.relief != 0) bend(&s, index + 3 * (size_t)triangle, camera, coordinates, p, material.relief, mask);
 #endif
-            shade(material, lobes, tables, lights, light_count, groups, s, frame, x, y, mask, p, material_sums);
+            shade(material, lobes, tables, lights, light_count, groups, s, frame, x, y, mask, p, material_sums REACHED);
         }
     }
     const float inv_samples = 1.0f / (float)frame.samples;

@@ -32,6 +32,9 @@ typedef struct surface {
 #ifdef HAS_ANISOTROPY
     v3 tangent, bitangent; /* unit, in the surface: along the texture coordinates' u, and across it; their signs mean nothing */
 #endif
+#ifdef HAS_SHADOWS
+    v3 lifted; /* where rays to lights start, m: just off the triangle, and where its normals make it the flat part of something round, on that */
+#endif
 #ifdef HAS_RELIEF
     vfloat side; /* 1 where the outside is seen, -1 from behind */
     v3 horizon;  /* light from behind this plane does not arrive: the normal before a texture bent it */
@@ -43,6 +46,18 @@ typedef struct surface {
     vfloat u_x, v_x, u_y, v_y; /* their change from pixel to pixel, along rows and columns, up to a common sign */
 #endif
 } surface;
+
+#ifdef HAS_SHADOWS
+/* By how much a place lies below the plane through a corner across its normal: along that normal. */
+static inline v3 up_to(v3 place, const global float* corner, const global float* corner_normal, vfloat side, vfloat share) {
+    const v3 raw = {corner_normal[0], corner_normal[1], corner_normal[2]};
+    const v3 normal = scale3(unit3(raw), side);
+    const v3 off = {place.x - corner[0], place.y - corner[1], place.z - corner[2]};
+    return scale3(normal, share * max(-dot3(off, normal), (vfloat)0.0f));
+}
+
+static inline float size_of(const global float* p) { return max(max(fabs(p[0]), fabs(p[1])), fabs(p[2])); }
+#endif
 
 #ifdef HAS_ANISOTROPY
 /* Tangents in the surface that has the normal, as near as may be to a vector. */
@@ -142,20 +157,29 @@ static surface surface_at(global const uint* corner, global const float* camera,
         s.view.x = -s.position.x, s.view.y = -s.position.y, s.view.z = -s.position.z;
         s.view = unit3(s.view);
     }
-#ifdef BAKE
-    /* A texture belongs to the outside. */
-    const vfloat side = 1.0f;
-    n = unit3(n);
-#else
-    /* The seen side: the face's plane decides, so that a smooth normal that leans over the silhouette stays on its side. */
+#if defined(HAS_SHADOWS) || !defined(BAKE)
     const v3 e1 = {(vfloat)(p1[0] - p0[0]), (vfloat)(p1[1] - p0[1]), (vfloat)(p1[2] - p0[2])};
     const v3 e2 = {(vfloat)(p2[0] - p0[0]), (vfloat)(p2[1] - p0[1]), (vfloat)(p2[2] - p0[2])};
     const v3 face = cross3(e1, e2);
-    const vfloat seen = dot3(face, s.view), along = dot3(face, n);
+    const vfloat outward = copysign((vfloat)1.0f, dot3(face, n));
+#endif
     n = unit3(n);
-    const vfloat side = copysign((vfloat)1.0f, seen) * copysign((vfloat)1.0f, along);
+#ifdef BAKE
+    /* A texture belongs to the outside. */
+    const vfloat side = 1.0f;
+#else
+    /* The seen side: the face's plane decides, so that a smooth normal that leans over the silhouette stays on its side. */
+    const vfloat side = copysign((vfloat)1.0f, dot3(face, s.view)) * outward;
 #endif
     s.normal = scale3(n, side);
+#ifdef HAS_SHADOWS
+    /* Onto the planes through the corners across their normals, where these are above (Hanika, Hacking the Shadow Terminator, 2021);
+     * and off the triangle by more than rounding may have put the place, or the corners of neighbours, below it. */
+    s.lifted = add3(add3(up_to(s.position, p0, n0, side, b0), up_to(s.position, p1, n1, side, b1)), up_to(s.position, p2, n2, side, b2));
+    const vfloat off = side * outward * (max(max(size_of(p0), size_of(p1)), size_of(p2)) * 0x1p-19f);
+    /* Unit edges: squares of squares of lengths are soon beyond float. */
+    s.lifted = add3(s.position, add3(s.lifted, scale3(unit3(cross3(unit3(e1), unit3(e2))), off)));
+#endif
 #ifdef HAS_RELIEF
     s.side = side;
     s.horizon = s.normal;

@@ -92,8 +92,12 @@ typedef struct sd_light {
     float inv_chord_range;      /* spot: 1 / (chord_outer - chord_inner); a cone with a hard edge has a huge value here */
     float scale;                /* of the group's spectrum */
     sd_uint group;              /* lights of one spectrum share a group, and with it their terms */
-    sd_int pad_;
+    sd_int shadows;             /* 1: surfaces hide it (HAS_SHADOWS) */
 } sd_light;
+
+/* What throws shadows stands in a binary tree of boxes: node n has the children 2n and 2n + 1, the leaves are the nodes from `leaves`
+ * (a power of two) on, leaf k holds the casters from k * casters / leaves up to the next leaf's first. */
+#define SD_LEAF_CASTERS 4
 
 #define SD_LOBE_EMISSION 1 /* one term */
 #define SD_LOBE_DIFFUSE 2  /* Lambert; this and the lobes below have a term for each light group */

@@ -137,7 +137,9 @@ void addBake(CLI::App& app, Action& action) {
     command->add_flag("--json", arguments->json, "print a JSON object");
     command->add_flag("-q,--quiet", arguments->quiet, "no remarks, no summary");
     command->footer(
-        "All lights of the scene count, without shadows, on the outside of the surface. Radiance is in "
+        "All lights of the scene count, on the outside of the surface; the whole scene throws shadows on it "
+        "where "
+        "they ask for that. Radiance is in "
         "W.m^-2.sr^-1.nm^-1, irradiance in W.m^-2.nm^-1. A later scene uses the file as texture=.\n\n"
         "Examples:\n"
         "  spectrad bake room.xml --node wall -o wall.exr --as irradiance --size 1024x512\n"

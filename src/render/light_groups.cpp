@@ -76,6 +76,7 @@ sd_light placed(const Light& light, const Affine& toWorld, const View& view) {
             l.type = SD_LIGHT_AMBIENT;
             break;
     }
+    l.shadows = light.shadows;
     const Vec3 place = light.type == LightType::directional ? along * -1 : position;
     l.x = static_cast<float>(place.x);
     l.y = static_cast<float>(place.y);
@@ -162,6 +163,8 @@ std::vector<LightGroup> groupLights(const Scene& scene, const FlatScene& flat, c
         // The first light that shines sets the group's absolute spectrum, so that terms are of the image's
         // own magnitude.
         if (groups[group].factor == 0) groups[group].factor = factor;
+        // What divides and what is divided are lit alike; neither is a picture.
+        if (equalEnergy) l.shadows = 0;
         l.group = static_cast<sd_uint>(group);
         l.scale = apart                       ? 1.0f
                   : groups[group].factor == 0 ? 0.0f

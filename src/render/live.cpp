@@ -51,7 +51,7 @@ LiveImage::Pipeline& LiveImage::pipeline(int samples) {
     // The stages read no vertex after this.
     World& world = made.plan.world;
     world.position = world.normal = world.uv = {};
-    world.index = world.triangleMaterial = world.vertexDraw = {};
+    world.index = world.triangleMaterial = world.vertexDraw = world.casters = {};
     return made;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "colour/observe.h"
+#include "render/casters.h"
 #include "render/emitter_colour.h"
 #include "render/range_check.h"
 #include "render/samples.h"
@@ -60,6 +61,7 @@ std::vector<const Material*> materialsWorn(const Scene& scene, const FlatScene& 
                                            std::vector<std::uint32_t>& number) {
     std::vector<bool> worn(scene.materials.size(), false);
     for (const FlatScene::Object& object : flat.objects) {
+        if (!object.drawn) continue;
         for (const ShapeUse& use : object.node->shapes)
             worn[use.material] = true;
         for (const MeshUse& use : object.node->meshes)
@@ -131,6 +133,7 @@ std::vector<std::string> featuresOf(const std::vector<const Material*>& material
                                                           "ambient", "background"};
         features.insert(names[static_cast<size_t>(light.type)]);
     }
+    if (throwShadows(world.lights)) features.insert("shadows");
     if (background) features.insert("background");
     return {features.begin(), features.end()};
 }
@@ -146,6 +149,10 @@ std::vector<std::string> definesOf(const World& world, int samples, bool baked) 
         static constexpr std::array<const char*, 6> switches{
             "", "HAS_POINT", "HAS_SPOT", "HAS_DIRECTIONAL", "HAS_UNIFORM", "HAS_UNIFORM"};
         defines.insert(switches[static_cast<size_t>(light.type)]);
+    }
+    if (throwShadows(world.lights)) {
+        defines.insert("HAS_SHADOWS");
+        defines.insert(fmt::format("SHADOW_WORDS={}", (world.lights.size() + 31) / 32));
     }
     for (const sd_lobe& lobe : world.lobes) {
         if (lobe.type == SD_LOBE_ROUGH || lobe.type == SD_LOBE_ROUGH_COATED) defines.insert("HAS_ROUGH");
@@ -254,11 +261,26 @@ View viewOf(const Shot& shot, const RenderSettings& settings, const FlatScene& f
     return view;
 }
 
-/// The surfaces of a node, where they stand.
+/// The surfaces of a node, where they stand; after them those of all others, for their shadows.
 std::vector<FlatScene::Object> objectsToBake(const Scene& scene, const Bake& bake) {
     const Node& node = byName(scene.nodes, bake.node, "node");
     auto objects = flatten(scene, static_cast<Index>(&node - scene.nodes.data())).objects;
     if (objects.empty()) throw InputError(node.where, "node '" + bake.node + "' has no surface to bake");
+    const auto same = [](const FlatScene::Object& a, const FlatScene::Object& b) {
+        return a.node == b.node && a.toWorld.m == b.toWorld.m;
+    };
+    const size_t baked = objects.size();
+    for (FlatScene::Object object : flatten(scene).objects) {
+        const auto end = objects.begin() + static_cast<std::ptrdiff_t>(baked);
+        const auto found =
+            std::find_if(objects.begin(), end, [&](const auto& own) { return same(own, object); });
+        if (found != end) {
+            found->throwsShadows = object.throwsShadows;
+            continue;
+        }
+        object.drawn = false;
+        objects.push_back(object);
+    }
     return objects;
 }
 

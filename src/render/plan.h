@@ -34,7 +34,7 @@ struct Plan {
     std::string labWhiteName;
     std::array<double, 3> labWhite{};
 
-    [[nodiscard]] size_t triangles() const { return world.index.size() / 3; }
+    [[nodiscard]] size_t triangles() const { return world.drawnTriangles(); }
     [[nodiscard]] size_t lights() const { return world.lights.size(); }
 };
 

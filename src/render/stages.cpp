@@ -1,5 +1,6 @@
 #include "render/stages.h"
 
+#include "render/casters.h"
 #include "render/resident.h"
 
 #include <algorithm>
@@ -84,9 +85,10 @@ Stages::Stages(const Device& device, const Plan& plan, const LanePattern& lanes)
       frame_(makeFrame(plan, lanes)),
       triangles_(static_cast<std::uint32_t>(plan.triangles())),
       vertices_(static_cast<std::uint32_t>(plan.world.vertexDraw.size())),
+      casterCount_(static_cast<std::uint32_t>(plan.world.casters.size())),
       words_(static_cast<std::uint32_t>((plan.world.materials.size() + 31) / 32)),
       slots_(static_cast<size_t>(lanes.slots)),
-      geometry_(device, {"transform.cl", "clear.cl", "small.cl", "clip.cl", "tiles.cl"},
+      geometry_(device, {"transform.cl", "clear.cl", "small.cl", "clip.cl", "tiles.cl", "bounds.cl"},
                 geometryDefines(plan, device)),
       shading_(device, {"materials.cl", "light.cl", "expand.cl", "show.cl"},
                withDevice(plan.defines, device)),
@@ -100,6 +102,8 @@ Stages::Stages(const Device& device, const Plan& plan, const LanePattern& lanes)
       scan_(geometry_.kernel("scan")),
       deal_(geometry_.kernel("deal_tiles")),
       tiles_(geometry_.kernel("cover_tiles")),
+      boundLeaves_(geometry_.kernel("bound_leaves")),
+      boundNodes_(geometry_.kernel("bound_nodes")),
       find_(shading_.kernel("find_materials")),
       scanTerms_(shading_.kernel("scan_terms")),
       list_(shading_.kernel("list_terms")),
@@ -155,6 +159,8 @@ void Stages::uploadWorld() {
     up(draws_, world.draws, "the scene's placements");
     up(index_, world.index, "the scene's triangles");
     up(triangleMaterial_, world.triangleMaterial, "the scene's triangles");
+    up(casters_, world.casters, "what throws shadows");
+    bounds_.reserve(device_, std::max<size_t>(size_t{12} * leavesOf(casterCount_), 1), "what throws shadows");
     up(materials_, world.materials, "the materials");
     up(lobes_, world.lobes, "the materials");
     up(tables_, world.tables, "the materials' tables");
@@ -189,6 +195,7 @@ void Stages::transform() {
         .set("camera_normal", cameraNormal_.buffer())
         .set("screen", screen_.buffer())
         .run(vertices_, 64);
+    boundCasters();
     if (plan_.world.tangent.empty()) return;
     tangents_.set("tangent", tangent_.buffer())
         .set("draw", vertexDraw_.buffer())
@@ -196,6 +203,20 @@ void Stages::transform() {
         .set("count", vertices_)
         .set("camera_tangent", cameraTangent_.buffer())
         .run(vertices_, 64);
+}
+
+void Stages::boundCasters() {
+    const std::uint32_t leaves = leavesOf(casterCount_);
+    if (leaves == 0) return;
+    boundLeaves_.set("index", index_.buffer())
+        .set("camera", camera_.buffer())
+        .set("casters", casters_.buffer())
+        .set("caster_count", casterCount_)
+        .set("leaves", leaves)
+        .set("bounds", bounds_.buffer())
+        .run(leaves, 64);
+    for (std::uint32_t nodes = leaves / 2; nodes > 0; nodes /= 2)
+        boundNodes_.set("first", nodes).set("count", nodes).set("bounds", bounds_.buffer()).run(nodes, 64);
 }
 
 std::uint32_t Stages::readNumber(const cl::Buffer& buffer, size_t index) {
@@ -328,6 +349,11 @@ bool Stages::light(int firstRow, int rows) {
         .set("block_first", image_.first.buffer())
         .set("block_term", image_.term.buffer())
         .run(image_.blocks, 16);
+    if (throwShadows(plan_.world.lights))
+        light_.set("casters", casters_.buffer())
+            .set("caster_count", casterCount_)
+            .set("leaves", cl_uint{leavesOf(casterCount_)})
+            .set("bounds", bounds_.buffer());
     const bool scalar = device_.body().vectorWidth() == 1;
     light_.set("keys", keys_.buffer())
         .set("index", index_.buffer())

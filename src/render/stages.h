@@ -62,6 +62,8 @@ class Stages {
   private:
     void uploadWorld();
     void uploadTextures();
+    /// Boxes around all that throws shadows, where it stands now.
+    void boundCasters();
     /// Those of the one pass that the scene shows, where that is its only texture; ownTexels_ else.
     [[nodiscard]] const cl::Buffer& texels() const;
     void expandRows(int from, int rows, const DeviceArray<float>& spectra,
@@ -74,16 +76,18 @@ class Stages {
     Device device_;
     const Plan& plan_;
     sd_frame frame_{};
-    std::uint32_t triangles_ = 0, vertices_ = 0, words_ = 1;
+    std::uint32_t triangles_ = 0, vertices_ = 0, casterCount_ = 0, words_ = 1;
     size_t slots_ = 1;
 
     Program geometry_, shading_;
-    Kernel transform_, tangents_, clear_, small_, setup_, clip_, count_, scan_, deal_, tiles_;
+    Kernel transform_, tangents_, clear_, small_, setup_, clip_, count_, scan_, deal_, tiles_, boundLeaves_,
+        boundNodes_;
     Kernel find_, scanTerms_, list_, light_, expand_, show_;
 
     DeviceArray<float> position_, normal_, tangent_, camera_, cameraNormal_, cameraTangent_, coordinates_,
         ownTexels_, spectra_, previewSpectra_;
-    DeviceArray<std::uint32_t> vertexDraw_, index_, triangleMaterial_;
+    DeviceArray<std::uint32_t> vertexDraw_, index_, triangleMaterial_, casters_;
+    DeviceArray<float> bounds_;  ///< six a node, from node 0, which is none
     DeviceArray<sd_draw> draws_;
     DeviceArray<sd_vertex> screen_;
     DeviceArray<sd_material> materials_;

@@ -1,6 +1,7 @@
 #include "render/world.h"
 
 #include "base/error.h"
+#include "render/casters.h"
 #include "render/tangents.h"
 
 #include <algorithm>
@@ -9,6 +10,15 @@
 #include <numbers>
 
 namespace spectrad {
+
+namespace {
+
+/// From the eye along a direction, to which a target beside a far eye would not be true.
+Affine lookingAlong(Vec3 eye, Vec3 direction, Vec3 up) {
+    return Affine::translation(eye) * Affine::lookAt({}, direction, up);
+}
+
+}  // namespace
 
 View makeView(const Camera& camera, const Affine& toWorld, int width, int height) {
     const Affine place = toWorld * camera.toNode;
@@ -19,7 +29,7 @@ View makeView(const Camera& camera, const Affine& toWorld, int width, int height
     view.orthographic = camera.orthographic;
     view.width = width;
     view.height = height;
-    view.worldToCamera = inverse(Affine::lookAt(eye, eye - back, up));
+    view.worldToCamera = inverse(lookingAlong(eye, back * -1, up));
     if (camera.orthographic)
         view.pixelsPerSlope = height / (camera.viewHeight * length(up));
     else
@@ -36,7 +46,7 @@ View makeCubeView(const Camera& camera, const Affine& toWorld, int face, int sid
     const auto f = static_cast<size_t>(face);
     View view;
     view.width = view.height = side;
-    view.worldToCamera = inverse(Affine::lookAt(eye, eye + along[f], up[f]));
+    view.worldToCamera = inverse(lookingAlong(eye, along[f], up[f]));
     view.pixelsPerSlope = 0.5 * side;
     return view;
 }
@@ -112,8 +122,9 @@ void checkCoordinates(const Mesh& mesh, const View& view) {
                              "' has texture coordinates too far outside 0…1 to be baked");
 }
 
+/// Of a mesh without material only the shadow is wanted.
 void addMesh(World& world, const Mesh& given, const Affine& toWorld, const View& view,
-             std::uint32_t material) {
+             std::optional<std::uint32_t> material) {
     if (given.index.empty()) return;
     Mesh cut;
     if (view.before) {
@@ -123,7 +134,7 @@ void addMesh(World& world, const Mesh& given, const Affine& toWorld, const View&
         if (cut.index.empty()) return;
     }
     const Mesh& mesh = view.before ? cut : given;
-    if (view.baked) checkCoordinates(mesh, view);
+    if (view.baked && material) checkCoordinates(mesh, view);
     const size_t first = world.vertexDraw.size();
     if (first + mesh.position.size() > most || world.index.size() / 3 + mesh.triangles() > most)
         throw InputError("the scene has more than " + std::to_string(most) + " triangles or vertices");
@@ -151,20 +162,30 @@ void addMesh(World& world, const Mesh& given, const Affine& toWorld, const View&
     world.vertexDraw.insert(world.vertexDraw.end(), source->position.size(), draw);
     for (std::uint32_t i : source->index)
         world.index.push_back(static_cast<std::uint32_t>(first) + i);
-    world.triangleMaterial.insert(world.triangleMaterial.end(), source->triangles(), material);
+    if (material) world.triangleMaterial.insert(world.triangleMaterial.end(), source->triangles(), *material);
 }
 
 }  // namespace
 
 void addGeometry(World& world, const FlatScene& scene, const View& view,
                  const std::vector<std::uint32_t>& materialNumber) {
+    const bool shadows = throwShadows(world.lights);
     for (const FlatScene::Object& object : scene.objects) {
+        const bool casts = shadows && object.throwsShadows;
+        if (!object.drawn && !casts) continue;
+        const auto first = static_cast<std::uint32_t>(world.index.size() / 3);
+        const auto worn = [&](Index material) {
+            return object.drawn ? std::optional(materialNumber[material]) : std::nullopt;
+        };
         for (const ShapeUse& use : object.node->shapes)
             addMesh(world, tessellate(use.shape, tolerance(use.shape, object.toWorld, view)), object.toWorld,
-                    view, materialNumber[use.material]);
+                    view, worn(use.material));
         for (const MeshUse& use : object.node->meshes)
-            addMesh(world, *use.mesh, object.toWorld, view, materialNumber[use.material]);
+            addMesh(world, *use.mesh, object.toWorld, view, worn(use.material));
+        for (std::uint32_t t = first; casts && t < world.index.size() / 3; ++t)
+            world.casters.push_back(t);
     }
+    orderCasters(world);
 }
 
 }  // namespace spectrad

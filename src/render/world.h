@@ -42,8 +42,12 @@ struct World {
     std::vector<std::uint32_t> vertexDraw;  ///< one a vertex
     std::vector<sd_draw> draws;
     std::vector<std::uint32_t> index;             ///< three a triangle
-    std::vector<std::uint32_t> triangleMaterial;  ///< one a triangle, index into materials
-    std::vector<sd_material> materials;           ///< [0] is the background
+    std::vector<std::uint32_t> triangleMaterial;  ///< one for each triangle that is drawn, index into
+                                                  ///< materials; others follow, for their shadows
+    /// Triangles that hide lights from others, by the leaves of the tree of boxes (render/casters.h); empty
+    /// where no light asks for shadows.
+    std::vector<std::uint32_t> casters;
+    std::vector<sd_material> materials;  ///< [0] is the background
     std::vector<sd_lobe> lobes;
     std::vector<sd_piece> tables;
     std::vector<sd_light> lights;
@@ -55,12 +59,15 @@ struct World {
         std::shared_ptr<const ResidentTexels> texels;
     };
     std::vector<Resident> resident;
+
+    [[nodiscard]] size_t drawnTriangles() const { return triangleMaterial.size(); }
 };
 
 /// Adds the triangles of all objects: shapes tessellated to a tenth of a pixel as this view sees them, meshes
 /// as they are. Scene material m becomes world material materialNumber[m]. Throws InputError beyond 2^32 − 2
 /// triangles or vertices. Texture coordinates are kept only where a texture or a baked view wants them; a
-/// baked view takes all of them within reach of its image, or throws InputError.
+/// baked view takes all of them within reach of its image, or throws InputError. Where lights that throw
+/// shadows are there, finds what hides them.
 void addGeometry(World& world, const FlatScene& scene, const View& view,
                  const std::vector<std::uint32_t>& materialNumber);
 

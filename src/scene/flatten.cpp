@@ -34,23 +34,26 @@ FlatScene flatten(const Scene& scene, std::optional<Index> root) {
     struct Visit {
         Index node;
         Affine toWorld;
+        bool throwsShadows;
     };
     FlatScene flat;
-    std::vector<Visit> waiting{{root.value_or(0), placeOf(scene, root.value_or(0))}};
+    std::vector<Visit> waiting{{root.value_or(0), placeOf(scene, root.value_or(0)), true}};
     while (!waiting.empty()) {
         const Visit visit = waiting.back();
         waiting.pop_back();
         const Node& node = scene.nodes[visit.node];
         checkTransform(node, visit.toWorld);
-        if (!node.shapes.empty() || !node.meshes.empty()) flat.objects.push_back({&node, visit.toWorld});
+        const bool throwsShadows = visit.throwsShadows && node.throwsShadows;
+        if (!node.shapes.empty() || !node.meshes.empty())
+            flat.objects.push_back({&node, visit.toWorld, throwsShadows});
         for (const Index light : node.lights)
             flat.lights.push_back({light, visit.toWorld});
         for (const Index camera : node.cameras)
             flat.cameras.push_back({camera, visit.toWorld});
         // An instance shows the other node's content under its own transform, not under that node's.
-        if (node.instanceOf) waiting.push_back({*node.instanceOf, visit.toWorld});
+        if (node.instanceOf) waiting.push_back({*node.instanceOf, visit.toWorld, throwsShadows});
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-            waiting.push_back({*child, visit.toWorld * scene.nodes[*child].local});
+            waiting.push_back({*child, visit.toWorld * scene.nodes[*child].local, throwsShadows});
     }
     // A node keeps its lights apart from its children; their indices still tell the order in which they were
     // written.

@@ -154,6 +154,7 @@ class Graft {
         for (const std::uint32_t l : from.lights) {
             node.lights.push_back(static_cast<Index>(scene_.lights.size()));
             scene_.lights.push_back(lightOf(model_.lights[l], model_.photometric, resolver_, where_));
+            scene_.lights.back().shadows = scene_.shadows && scene_.lights.back().type != LightType::ambient;
             scene_.lights.back().name = lightNames_.unique(model_.lights[l].name);
             lampsOfNoUnit_ = lampsOfNoUnit_ || !model_.photometric;
         }

@@ -45,7 +45,7 @@ std::vector<ElementRule> makeGrammar() {
     const std::string graph = std::string(shapes) + "node instance import light camera";
     const std::string transform(transforms), amount(amounts), sampling(samplings);
     return {
-        rule("scene", "version unit",
+        rule("scene", "version unit shadows",
              "wavelengths1 spectrum material " + graph + " background1 detector pass region sweep"),
         rule("wavelengths", "from to step projection", "#text"),
         rule("spectrum", "name! quantity relative noise value file column", "#text"),
@@ -61,9 +61,9 @@ std::vector<ElementRule> makeGrammar() {
         rule("emission", "spectrum luminance radiance scale texture filter"),
         rule("normal", "map! strength" + sampling),
         rule("bump", "height! depth!" + sampling),
-        rule("node", "name" + transform, graph),
-        rule("instance", "of! name" + transform),
-        rule("import", "file! name" + transform + " material normals geometry-only", "bind"),
+        rule("node", "name" + transform + " shadows", graph),
+        rule("instance", "of! name" + transform + " shadows"),
+        rule("import", "file! name" + transform + " material normals geometry-only shadows", "bind"),
         rule("bind", "material! to!"),
         rule("mesh", "file! material normals"),
         rule("sphere", "radius material"),
@@ -74,7 +74,8 @@ std::vector<ElementRule> makeGrammar() {
         rule("cone", "radius height material"),
         rule("torus", "radius tube material"),
         rule("teapot", "size material"),
-        rule("light", "name type! position target direction angle blend spectrum!" + amount + " scale"),
+        rule("light",
+             "name type! position target direction angle blend spectrum!" + amount + " scale shadows"),
         rule("background", "spectrum luminance radiance scale texture filter mapping"),
         rule("camera", "name type fov sensor focal height look-from look-at up size"),
         rule("detector", "name! observer sensitivity quantum-efficiency lens filter", "channel"),

@@ -69,6 +69,7 @@ Index addNode(Reading& reading, const Element& element, Index parent) {
     node.name = element.text("name");
     node.where = element.where();
     node.local = readTransform(reading, element);
+    node.throwsShadows = element.boolean("shadows", true);
     reading.nodes.add(node.name, index, node.where);
     reading.scene.nodes[parent].children.push_back(index);
     return index;

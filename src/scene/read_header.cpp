@@ -34,6 +34,7 @@ void readHeader(Reading& reading) {
     reading.scene.metresPerUnit = root.choice<double>(
         "unit",
         {{"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"km", 1e3}, {"in", 0.0254}, {"ft", 0.3048}}, 1);
+    reading.scene.shadows = root.boolean("shadows", false);
     const auto wavelengths = root.child("wavelengths");
     reading.scene.wavelengths =
         wavelengths ? readWavelengths(*wavelengths) : regularWavelengths(380, 780, 5, root.where());

@@ -55,6 +55,8 @@ Light readLight(Reading& reading, const Element& element) {
     if (light.type != LightType::spot)
         for (const char* attribute : {"target", "angle", "blend"})
             element.refuse(attribute, notHere);
+    if (light.type == LightType::ambient)
+        element.refuse("shadows", notHere + ", which comes from everywhere");
     if (light.type == LightType::point || light.type == LightType::ambient)
         element.refuse("direction", notHere);
 
@@ -67,6 +69,7 @@ Light readLight(Reading& reading, const Element& element) {
         if (!element.has("direction")) element.fail("of type directional needs the attribute 'direction'");
         light.direction = direction(element, "direction");
     }
+    light.shadows = element.boolean("shadows", reading.scene.shadows && light.type != LightType::ambient);
     light.emitter = readEmitter(reading, element, sourceKind(light.type), what);
     return light;
 }

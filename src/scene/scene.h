@@ -178,7 +178,8 @@ struct MeshUse {
 struct Node {
     std::string name;  ///< may be empty
     SourceLocation where;
-    Affine local;  ///< to the parent's space; lengths in metres
+    Affine local;               ///< to the parent's space; lengths in metres
+    bool throwsShadows = true;  ///< what stands in it hides lights that are told to throw shadows
     std::vector<Index> children;
     std::vector<ShapeUse> shapes;
     std::vector<MeshUse> meshes;
@@ -195,6 +196,7 @@ struct Light {
     Vec3 direction{0, -1, 0};  ///< spot, directional: where the light goes, unit vector in the node's space
     double angle = 30;         ///< spot: full opening angle of the cone, degrees
     double blend = 0;          ///< spot: share of the cone's angle over which it fades out, 0…1
+    bool shadows = false;      ///< surfaces keep it from others; never of ambient light
     SourceLocation where;
 };
 
@@ -248,6 +250,7 @@ struct Scene {
     std::vector<std::string> filesRead;
     Wavelengths wavelengths;
     double metresPerUnit = 1;
+    bool shadows = false;             ///< of lights that do not say themselves whether they throw any
     std::vector<Material> materials;  ///< [0] is the default: grey, reflectance 0.5
     std::vector<Node> nodes;          ///< [0] is the root
     std::vector<Light> lights;
@@ -270,6 +273,8 @@ struct FlatScene {
     struct Object {
         const Node* node;
         Affine toWorld;
+        bool throwsShadows = true;  ///< it, and all nodes that it stands in
+        bool drawn = true;          ///< false: it is there for its shadow
     };
     std::vector<Object> objects;  ///< nodes with shapes or meshes
     std::vector<Placed> lights;

@@ -126,6 +126,12 @@ std::vector<Simpler> simplerScenes(const Scene& scene, const Plan& plan, Texture
          {std::pair{"point", LightType::point}, std::pair{"spot", LightType::spot},
           std::pair{"directional", LightType::directional}, std::pair{"ambient", LightType::ambient}})
         if (has(feature)) out.push_back({feature, "no such lights", withoutLights(scene, type)});
+    if (has("shadows")) {
+        Scene changed = scene;
+        for (Light& light : changed.lights)
+            light.shadows = false;
+        out.push_back({"shadows", "light goes through everything", std::move(changed)});
+    }
     if (has("background")) {
         Scene changed = scene;
         changed.background.reset();

@@ -79,6 +79,7 @@ Reference::Reference(const Scene& scene, const RenderSettings& settings, const W
     sameLobes_ = sameLobes(wide_.world, own_.world);
     frame_ = scalar::frameOf(wide_);
     vertices_ = scalar::transform<double>(wide_.world, frame_);
+    occluders_ = {wide_.world, vertices_};
 }
 
 void Reference::shadePixel(const Plan& plan, const PixelPlace& place, const SamplePattern& pattern,
@@ -94,7 +95,7 @@ void Reference::shadePixel(const Plan& plan, const PixelPlace& place, const Samp
         const auto add = [&](size_t, std::uint32_t term, double value, bool) {
             g[material.first_term + term] += value;
         };
-        scalar::shadeSample<double>(plan, vertices_, frame_, material, seen[k], x, y, add);
+        scalar::shadeSample<double>(plan, vertices_, occluders_, frame_, material, seen[k], x, y, add);
     }
     for (double& value : g)
         value /= static_cast<double>(samples);

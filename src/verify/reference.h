@@ -8,6 +8,7 @@
 #include "colour/detector.h"
 #include "opencl/device.h"
 #include "render/plan.h"
+#include "verify/scalar_shadow.h"
 #include "verify/visibility.h"
 
 namespace spectrad {
@@ -54,6 +55,7 @@ class Reference {
     bool sameLobes_;  ///< both plans have the same factors g
     sd_frame frame_;
     scalar::VerticesOf<double> vertices_;
+    scalar::OccludersOf<double> occluders_;
     std::vector<std::string> taken_;
 };
 

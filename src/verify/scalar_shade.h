@@ -4,6 +4,7 @@
 
 #include "render/plan.h"
 #include "verify/scalar_relief.h"
+#include "verify/scalar_shadow.h"
 #include "verify/scalar_surface.h"
 #include "verify/scalar_texels.h"
 
@@ -154,12 +155,27 @@ inline bool isWide(const sd_texture& t) {
     return t.bands > 16;
 }
 
+/// Of each light whether something stands between it and the surface; none where no light throws shadows.
+template <typename Real>
+std::vector<bool> hiddenLights(const World& world, const OccludersOf<Real>& occluders,
+                               const SurfaceOf<Real>& s) {
+    std::vector<bool> hidden;
+    if (!throwShadows(world.lights)) return hidden;
+    for (const sd_light& light : world.lights) {
+        VectorOf<Real> toLight{};
+        hidden.push_back(light.shadows && arriving(light, s.position, toLight) > 0 &&
+                         dot(s.normal, toLight) > 0 && occluders.hides(light, s.lifted));
+    }
+    return hidden;
+}
+
 /// Calls add(call, term, g, wide) for everything that lobes and lights add to one sample; `call` orders the
 /// additions, `wide` says that a texture wider than vectors is one of the factors.
 template <typename Real, typename Add>
-void shade(const Plan& plan, const sd_frame& frame, const sd_material& material, const SurfaceOf<Real>& s,
-           const Add& add) {
+void shade(const Plan& plan, const OccludersOf<Real>& occluders, const sd_frame& frame,
+           const sd_material& material, const SurfaceOf<Real>& s, const Add& add) {
     const World& world = plan.world;
+    const std::vector<bool> hidden = hiddenLights(world, occluders, s);
     const std::uint32_t groups = plan.groups;
     size_t call = 0;
     for (std::uint32_t l = 0; l < material.lobes; ++l) {
@@ -233,9 +249,11 @@ void shade(const Plan& plan, const sd_frame& frame, const sd_material& material,
             lobe.type == SD_LOBE_DIFFUSE ? Real(0.0) : firstAt(lobe, table, s, s.view, s.cosView);
         const Real azimuth = lobe.alpha_v == 0 ? Real(0.0) : azimuthOf(lobe, localOf(s, s.view));
         const std::uint32_t each = lobe.alpha_v == 0 ? 1 : SD_AZIMUTHS;  // tables of a function
-        for (const sd_light& light : world.lights) {
+        for (size_t k = 0; k < world.lights.size(); ++k) {
+            const sd_light& light = world.lights[k];
             const size_t base = call;
             call += callsALight;
+            if (!hidden.empty() && hidden[k]) continue;
             const std::uint32_t term = lobe.term + light.group;
             if (light.type == SD_LIGHT_AMBIENT || light.type == SD_LIGHT_SURROUNDINGS) {
                 if (light.type == SD_LIGHT_SURROUNDINGS && !(lobe.type == SD_LOBE_FACETS && lobe.alpha == 0))
@@ -354,8 +372,9 @@ void shadeBackdrop(const Plan& plan, const sd_frame& frame, const sd_material& m
 /// All that a sample adds which sees this triangle, or none. x, y: SD_SUBPIXEL-ths of a pixel from the
 /// image's centre.
 template <typename Real, typename Stored, typename Add>
-void shadeSample(const Plan& plan, const VerticesOf<Stored>& vertices, const sd_frame& frame,
-                 const sd_material& material, std::uint32_t triangle, Real x, Real y, const Add& add) {
+void shadeSample(const Plan& plan, const VerticesOf<Stored>& vertices, const OccludersOf<Real>& occluders,
+                 const sd_frame& frame, const sd_material& material, std::uint32_t triangle, Real x, Real y,
+                 const Add& add) {
     if (triangle == noTriangle) {
         shadeBackdrop<Real>(plan, frame, material, x, y, add);
         return;
@@ -364,7 +383,7 @@ void shadeSample(const Plan& plan, const VerticesOf<Stored>& vertices, const sd_
     if (material.relief != 0)
         bend<Real>(surface, plan.world, vertices, triangle, plan.world.textures[material.relief - 1],
                    static_cast<Real>(plan.samples), frame.baked != 0);
-    shade<Real>(plan, frame, material, surface, add);
+    shade<Real>(plan, occluders, frame, material, surface, add);
 }
 
 }  // namespace spectrad::scalar

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace spectrad::scalar {
 
@@ -42,6 +43,7 @@ struct SurfaceOf {
     Real x, y;            // the sample, SD_SUBPIXEL-ths of a pixel from the image's centre
     Real side;            // 1 where the outside is seen
     VectorOf<Real> horizon;
+    VectorOf<Real> lifted;  // where rays to lights start
     VectorOf<Real> tangent, bitangent;
 };
 
@@ -56,6 +58,32 @@ void orient(SurfaceOf<Real>& s, VectorOf<Real> along) {
     const VectorOf<Real> back = scaled(s.normal, -dot(s.normal, along));
     s.tangent = unit<Real>({along.x + back.x, along.y + back.y, along.z + back.z});
     s.bitangent = crossed(s.normal, s.tangent);
+}
+
+template <typename Real>
+VectorOf<Real> sumOf(VectorOf<Real> a, VectorOf<Real> b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+/// Off the triangle (`face`: its unit normal), and onto what its corners' normals make of it where that is
+/// above; `share`: barycentrics.
+template <typename Real>
+VectorOf<Real> liftedFrom(const SurfaceOf<Real>& s, VectorOf<Real> face, Real outward,
+                          const std::array<std::array<Real, 3>, 3>& corner,
+                          const std::array<std::array<Real, 3>, 3>& normal,
+                          const std::array<Real, 3>& share) {
+    std::array<VectorOf<Real>, 3> up{};
+    Real size = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        const auto& p = corner[k];
+        const VectorOf<Real> n = scaled(unit<Real>({normal[k][0], normal[k][1], normal[k][2]}), s.side);
+        const VectorOf<Real> off{s.position.x - p[0], s.position.y - p[1], s.position.z - p[2]};
+        up[k] = scaled(n, share[k] * std::max(-dot(off, n), Real(0.0)));
+        for (const Real coordinate : p)
+            size = std::max(size, std::fabs(coordinate));
+    }
+    const Real rounding = s.side * outward * (size * (std::numeric_limits<Real>::epsilon() * Real(16.0)));
+    return sumOf(s.position, sumOf(sumOf(sumOf(up[0], up[1]), up[2]), scaled(face, rounding)));
 }
 
 /// Stored: what the vertices are kept in.
@@ -105,10 +133,11 @@ SurfaceOf<Real> surfaceAt(const World& world, const VerticesOf<Stored>& vertices
     const VectorOf<Real> e1{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]},
         e2{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
     const VectorOf<Real> face = crossed(e1, e2);
-    const Real seen = dot(face, s.view), outward = dot(face, normal);
+    const Real outward = std::copysign(Real(1.0), dot(face, normal));
     normal = unit(normal);
-    s.side = frame.baked ? Real(1.0) : std::copysign(Real(1.0), seen) * std::copysign(Real(1.0), outward);
+    s.side = frame.baked ? Real(1.0) : std::copysign(Real(1.0), dot(face, s.view)) * outward;
     s.normal = scaled(normal, s.side);
+    s.lifted = liftedFrom<Real>(s, unit(crossed(unit(e1), unit(e2))), outward, p, n, {b0, b1, b2});
     s.horizon = s.normal;
     s.cosView = std::fmax(dot(s.normal, s.view), Real(1e-6f));
     if (!world.uv.empty()) {

@@ -123,7 +123,7 @@ std::vector<std::uint32_t> trianglesSeen(const World& world, const scalar::Verti
     const auto before = [](const PixelPlace& a, const PixelPlace& b) {
         return a.y != b.y ? a.y < b.y : a.x < b.x;
     };
-    const auto triangles = static_cast<std::uint32_t>(world.index.size() / 3);
+    const auto triangles = static_cast<std::uint32_t>(world.drawnTriangles());
     for (std::uint32_t id = 0; id < triangles; ++id) {
         const Triangle triangle(world, vertices, frame, id);
         if (triangle.unseen()) continue;

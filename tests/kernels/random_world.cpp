@@ -1,5 +1,6 @@
 #include "kernels/random_world.h"
 
+#include "render/casters.h"
 #include "render/facets.h"
 #include "render/fresnel.h"
 #include "render/samples.h"
@@ -216,6 +217,16 @@ void addLights(World& world) {
     add(SD_LIGHT_SURROUNDINGS, 0, 0, 0, 0, 0.2f);
 }
 
+/// All but every fifth triangle hide the spot and the lamp far away.
+void addShadows(Plan& plan) {
+    World& world = plan.world;
+    world.lights[1].shadows = world.lights[2].shadows = 1;
+    for (std::uint32_t t = 0; t < world.triangleMaterial.size(); ++t)
+        if (t % 5 != 0) world.casters.push_back(t);
+    orderCasters(world);
+    plan.defines.insert(plan.defines.end(), {"HAS_SHADOWS", "SHADOW_WORDS=1"});
+}
+
 Plan emptyPlan(int samples, bool orthographic, int width, int height) {
     Plan plan;
     plan.samples = samples;
@@ -295,6 +306,7 @@ Plan randomPlan(unsigned seed, int samples, bool orthographic, int triangles, in
         }
         addTriangle(plan.world, first, first + 1, first + 2);
     }
+    addShadows(plan);
     return plan;
 }
 
@@ -360,6 +372,7 @@ Plan adversarialPlan(unsigned seed, bool orthographic) {
                                        uniform(random, -1, 0.3) * scale);
         triangle(p, q, r);
     }
+    addShadows(plan);
     return plan;
 }
 

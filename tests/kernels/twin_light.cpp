@@ -37,6 +37,7 @@ BlockOf<Real> light(const Plan& plan, const Vertices& vertices, const sd_frame& 
                     const LanePattern& lanes, const std::vector<std::uint64_t>& keys, int row,
                     int blockColumn, int vectorWidth) {
     const World& world = plan.world;
+    const OccludersOf<Real> occluders(world, vertices);
     const size_t slots = lanes.slotX.size();
     const std::uint64_t* cells = keys.data() + (static_cast<size_t>(row) * static_cast<size_t>(frame.pitch) +
                                                 static_cast<size_t>(blockColumn) * SD_BLOCK) *
@@ -86,7 +87,7 @@ BlockOf<Real> light(const Plan& plan, const Vertices& vertices, const sd_frame& 
                 const int sx = (blockColumn * SD_BLOCK + static_cast<int>(x)) * 256 - frame.width * 128 +
                                lanes.slotX[slot];
                 const int sy = row * 256 - frame.height * 128 + lanes.slotY[slot];
-                shadeSample<Real>(plan, vertices, frame, material, id, static_cast<Real>(sx),
+                shadeSample<Real>(plan, vertices, occluders, frame, material, id, static_cast<Real>(sx),
                                   static_cast<Real>(sy), add);
             }
             for (const auto& [call, entry] : adds) {

@@ -197,8 +197,10 @@ TEST_CASE("lights come over with an amount: as stated for glTF, by one stated ru
         model.lights[1].type = ImportedLight::Type::directional;
         model.lights[1].direction = {0, -2, 0};
         model.nodes[1].lights = {0, 1};
+        w.scene.shadows = photometric;
         w.add(model);
         REQUIRE(w.scene.lights.size() == 2);
+        CHECK(w.scene.lights[0].shadows == photometric);
         const Light& lamp = w.scene.lights[0];
         const double brightness = 0.2126 * 80 + 0.7152 * 40 + 0.0722 * 20;
         CHECK(lamp.type == LightType::spot);

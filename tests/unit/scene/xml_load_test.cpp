@@ -270,6 +270,28 @@ TEST_CASE("lights and cameras stand where they say and look where they say") {
     CHECK(near(scene.cameras[1].toNode.direction({0, 0, -1}), {0, 0, -1}));
 }
 
+TEST_CASE("lights throw shadows where they say so, or else the scene; nodes may throw none") {
+    const std::string content = R"(
+      <light type="point" spectrum="illuminants/A" intensity="1 cd"/>
+      <light type="point" spectrum="illuminants/A" intensity="1 cd" shadows="true"/>
+      <light type="point" spectrum="illuminants/A" intensity="1 cd" shadows="false"/>
+      <light type="ambient" spectrum="illuminants/A" luminance="1 cd/m2"/>
+      <node shadows="false"><node name="lamp" shadows="true"><sphere/></node></node><instance of="lamp"/>)";
+    for (const bool all : {false, true}) {
+        const Scene scene = load(std::string(R"(<scene version="1")") + (all ? " shadows=\"true\">" : ">") +
+                                 content + "</scene>")
+                                .scene;
+        std::vector<bool> throws;
+        for (const Light& light : scene.lights)
+            throws.push_back(light.shadows);
+        CHECK(throws == std::vector<bool>{all, true, false, false});
+        const FlatScene flat = flatten(scene);
+        REQUIRE(flat.objects.size() == 2);
+        CHECK_FALSE(flat.objects[0].throwsShadows);
+        CHECK(flat.objects[1].throwsShadows);
+    }
+}
+
 TEST_CASE("passes name cameras and nodes, also those written later") {
     const Scene scene = load(inScene(R"(
       <pass name="inner" camera="eye" of="cow" size="512x256" samples="4" as="reflectance" wavelengths="400:700:10" projection="box" save="inner.exr"/>

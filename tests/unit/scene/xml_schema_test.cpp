@@ -127,13 +127,14 @@ TEST_CASE("the format's own example is valid, and so is every form of value that
     <sphere radius="1"/> <box size="1 1 1"/> <box size="2"/> <plane size="2 1"/> <disc radius="1"/> <cylinder radius="1" height="2"/>
     <cone radius="1" height="2"/> <torus radius="1" tube="0.3"/> <teapot size="1"/>
     <node matrix="1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1"><light type="ambient" spectrum="a" scale="2"/></node>
+    <node shadows="false"/>
   </node>
-  <instance of="cow" translate="3 0 0"/>
+  <instance of="cow" translate="3 0 0" shadows="true"/>
   <background spectrum="a" radiance="1 W/m²/sr over 400:700"/>
   <import file="room.dae"> <bind material="Wall*" to="ink"/> </import>
   <light type="point" position="0 3 0" spectrum="illuminants/D65" intensity="800 cd"/>
   <light type="spot" position="0 1 0" target="0 0 0" angle="30" blend="0.2" spectrum="a"/>
-  <light type="directional" direction="0 -1 0" spectrum="a" irradiance="100 W/m2 over 400:700"/>
+  <light type="directional" shadows="true" direction="0 -1 0" spectrum="a" irradiance="100 W/m2 over 400:700"/>
   <camera name="main" type="perspective" fov="40" look-from="0 1 5" look-at="0 0 0" up="0 1 0" size="1280x720"/>
   <camera sensor="36x24" focal="50"/>
   <camera name="flat" type="orthographic" height="4" look-from="0 0 5" look-at="0 0 0" size="600x400"/>

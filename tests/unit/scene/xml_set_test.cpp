@@ -86,7 +86,7 @@ TEST_CASE(
 TEST_CASE("what --set writes is checked like the file, and errors name the option") {
     CHECK(refusal(scene, {"cow.size=3"}) ==
           "--set cow.size=3: unknown attribute 'size' in <node> (allowed: name, translate, rotate, scale, "
-          "matrix)");
+          "matrix, shadows)");
     CHECK(refusal(scene, {"cow.scale=0"}) == "--set cow.scale=0: scale=\"0\" in <node>: a scale cannot be 0");
     CHECK(refusal(scene, {"lamp.power=5 W"}) ==
           "scene.xml:7:3: <light> has two amounts, 'intensity' and 'power' (one is allowed)");
