@@ -6,7 +6,7 @@ kernel void bound_leaves(global const uint* index, global const float* camera, g
                          uint leaves, global float* bounds) {
     const uint leaf = (uint)get_global_id(0);
     if (leaf >= leaves) return;
-    box whole = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    box whole = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
     const uint end = first_caster(leaf + 1, caster_count, leaves);
     for (uint i = first_caster(leaf, caster_count, leaves); i < end; ++i) {
         const box own = box_of(index + 3 * (size_t)casters[i], camera);

@@ -1,13 +1,11 @@
 /* Triangles that throw shadows and the boxes around them. */
 #include "prelude.h"
 
+#include "facet.h"
+
 typedef struct box {
     float low[3], high[3];
 } box;
-
-/* What is not a number never wins, unless it comes first. */
-static inline float least(float a, float b) { return a < b ? a : b; }
-static inline float greatest(float a, float b) { return a > b ? a : b; }
 
 static inline uint first_caster(uint leaf, uint casters, uint leaves) { return (uint)((ulong)leaf * casters / leaves); }
 

@@ -181,7 +181,7 @@ BLOCK_GROUP kernel void light_block(global const ulong* keys, global const uint*
         const vfloat x = V_FLOAT(x0 + VLOAD(pattern_x + lane % PATTERN)), y = V_FLOAT(y0 + VLOAD(pattern_y + lane % PATTERN));
 #ifdef HAS_SHADOWS
         seekers at;
-        at.position = at.normal = at.lifted = (v3){0.0f, 0.0f, 0.0f};
+        at.position = at.normal = at.lifted = (v3){(vfloat)0.0f, (vfloat)0.0f, (vfloat)0.0f};
         at.found = 0;
         vint waiting = todo & (id != NO_TRIANGLE);
         for (int i = 0; i < VW && ANY(waiting); ++i) {

@@ -19,7 +19,8 @@ typedef struct ray {
     v3 along;   /* to the light itself, or, if that is infinitely far, towards it */
     v3 inverse; /* of its coordinates, none of which is 0 */
     vfloat size; /* of the start's coordinates the largest */
-    float end;   /* 1: the light; infinite if it is infinitely far */
+    float end;   /* 1: the light; beyond everything if it is infinitely far */
+    float light_size; /* of the light's coordinates the largest; 0 if it is infinitely far */
 } ray;
 
 static inline vfloat not_zero(vfloat a) { return select(a, copysign((vfloat)1e-30f, a), fabs(a) < 1e-30f); }
@@ -28,7 +29,8 @@ static inline ray ray_to(sd_light light, v3 from) {
     ray r;
     r.from = from;
     r.size = max(max(fabs(from.x), fabs(from.y)), fabs(from.z));
-    r.end = light.type == SD_LIGHT_DIRECTIONAL ? INFINITY : 1.0f;
+    r.end = light.type == SD_LIGHT_DIRECTIONAL ? 1e30f : 1.0f;
+    r.light_size = light.type == SD_LIGHT_DIRECTIONAL ? 0.0f : greatest(greatest(fabs(light.x), fabs(light.y)), fabs(light.z));
     r.along.x = light.x, r.along.y = light.y, r.along.z = light.z;
     if (light.type != SD_LIGHT_DIRECTIONAL) r.along.x -= from.x, r.along.y -= from.y, r.along.z -= from.z;
     r.inverse.x = 1.0f / not_zero(r.along.x);
@@ -65,18 +67,25 @@ static inline v3 corner_from(const global float* p, v3 from) {
     return r;
 }
 
+/* Between the ray's ends, but not so near to either that rounding would decide: a lamp that lies in a surface is not hidden by it. */
 static vint meets_triangle(ray r, global const uint* corner, const global float* camera) {
-    const v3 a = corner_from(camera + 3 * (size_t)corner[0], r.from);
-    const v3 b = corner_from(camera + 3 * (size_t)corner[1], r.from);
-    const v3 c = corner_from(camera + 3 * (size_t)corner[2], r.from);
+    const global float* p0 = camera + 3 * (size_t)corner[0];
+    const global float* p1 = camera + 3 * (size_t)corner[1];
+    const global float* p2 = camera + 3 * (size_t)corner[2];
+    const v3 a = corner_from(p0, r.from), b = corner_from(p1, r.from), c = corner_from(p2, r.from);
     const vfloat u = moment(a, b, r.along), v = moment(b, c, r.along), w = moment(c, a, r.along);
     const vint inside = ((u >= 0.0f) & (v >= 0.0f) & (w >= 0.0f)) | ((u <= 0.0f) & (v <= 0.0f) & (w <= 0.0f));
     if (!ANY(inside)) return inside;
-    const v3 ab = {b.x - a.x, b.y - a.y, b.z - a.z}, ac = {c.x - a.x, c.y - a.y, c.z - a.z};
-    const v3 normal = cross3(ab, ac);
-    const vfloat speed = dot3(normal, r.along), height = dot3(normal, a);
-    const vfloat turn = copysign((vfloat)1.0f, speed), ahead = height * turn;
-    return inside & (ahead > 0.0f) & (ahead < fabs(speed) * r.end);
+    const facet plane = facet_of(p0, p1, p2);
+    const v3 normal = {(vfloat)plane.x, (vfloat)plane.y, (vfloat)plane.z};
+    v3 to = a;
+    if (plane.corner == 1) to = b;
+    if (plane.corner == 2) to = c;
+    const vfloat speed = dot3(normal, r.along);
+    const vfloat ahead = dot3(normal, to) * copysign((vfloat)1.0f, speed);
+    const vfloat here = (fabs(to.x) + fabs(to.y) + fabs(to.z)) * (plane.edges * 0x1p-21f);
+    const float there = steepness(plane) * (greatest(greatest(greatest(size_of(p0), size_of(p1)), size_of(p2)), r.light_size) * 0x1p-19f);
+    return inside & (ahead > here) & (ahead < fma(fabs(speed), (vfloat)r.end, (vfloat)-there));
 }
 
 /* Lanes of `asked` from which the light is seen: no triangle stands between. */

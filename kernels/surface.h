@@ -1,6 +1,8 @@
 /* What a sample sees of a triangle: position, normal, view direction, in camera space. Vectors of lanes, one triangle at a time. */
 #include "prelude.h"
 
+#include "facet.h"
+
 typedef struct v3 {
     vfloat x, y, z;
 } v3;
@@ -48,15 +50,15 @@ typedef struct surface {
 } surface;
 
 #ifdef HAS_SHADOWS
-/* By how much a place lies below the plane through a corner across its normal: along that normal. */
-static inline v3 up_to(v3 place, const global float* corner, const global float* corner_normal, vfloat side, vfloat share) {
-    const v3 raw = {corner_normal[0], corner_normal[1], corner_normal[2]};
+/* By how much a place lies below the plane through a corner across its normal: along that normal. A normal that leans from the
+ * triangle's own (`up`) by more than 30 degrees means less and less that something is round; at 53 degrees, nothing. */
+static inline v3 up_to(v3 place, const global float* corner, const global float* corner_normal, v3 up, vfloat side, vfloat share) {
+    const v3 raw = {(vfloat)corner_normal[0], (vfloat)corner_normal[1], (vfloat)corner_normal[2]};
     const v3 normal = scale3(unit3(raw), side);
     const v3 off = {place.x - corner[0], place.y - corner[1], place.z - corner[2]};
-    return scale3(normal, share * max(-dot3(off, normal), (vfloat)0.0f));
+    const vfloat round = clamp(fma(dot3(normal, up), (vfloat)4.0f, (vfloat)-2.4f), 0.0f, 1.0f);
+    return scale3(normal, share * round * max(-dot3(off, normal), (vfloat)0.0f));
 }
-
-static inline float size_of(const global float* p) { return max(max(fabs(p[0]), fabs(p[1])), fabs(p[2])); }
 #endif
 
 #ifdef HAS_ANISOTROPY
@@ -157,11 +159,11 @@ static surface surface_at(global const uint* corner, global const float* camera,
         s.view.x = -s.position.x, s.view.y = -s.position.y, s.view.z = -s.position.z;
         s.view = unit3(s.view);
     }
-#if defined(HAS_SHADOWS) || !defined(BAKE)
+#ifndef BAKE
     const v3 e1 = {(vfloat)(p1[0] - p0[0]), (vfloat)(p1[1] - p0[1]), (vfloat)(p1[2] - p0[2])};
     const v3 e2 = {(vfloat)(p2[0] - p0[0]), (vfloat)(p2[1] - p0[1]), (vfloat)(p2[2] - p0[2])};
     const v3 face = cross3(e1, e2);
-    const vfloat outward = copysign((vfloat)1.0f, dot3(face, n));
+    const vfloat seen = dot3(face, s.view), along = dot3(face, n);
 #endif
     n = unit3(n);
 #ifdef BAKE
@@ -169,16 +171,25 @@ static surface surface_at(global const uint* corner, global const float* camera,
     const vfloat side = 1.0f;
 #else
     /* The seen side: the face's plane decides, so that a smooth normal that leans over the silhouette stays on its side. */
-    const vfloat side = copysign((vfloat)1.0f, dot3(face, s.view)) * outward;
+    const vfloat side = copysign((vfloat)1.0f, seen) * copysign((vfloat)1.0f, along);
 #endif
     s.normal = scale3(n, side);
 #ifdef HAS_SHADOWS
     /* Onto the planes through the corners across their normals, where these are above (Hanika, Hacking the Shadow Terminator, 2021);
      * and off the triangle by more than rounding may have put the place, or the corners of neighbours, below it. */
-    s.lifted = add3(add3(up_to(s.position, p0, n0, side, b0), up_to(s.position, p1, n1, side, b1)), up_to(s.position, p2, n2, side, b2));
-    const vfloat off = side * outward * (max(max(size_of(p0), size_of(p1)), size_of(p2)) * 0x1p-19f);
-    /* Unit edges: squares of squares of lengths are soon beyond float. */
-    s.lifted = add3(s.position, add3(s.lifted, scale3(unit3(cross3(unit3(e1), unit3(e2))), off)));
+    const facet own = facet_of(p0, p1, p2);
+    const float largest = steepness(own);
+    v3 up = {(vfloat)(own.x / largest), (vfloat)(own.y / largest), (vfloat)(own.z / largest)};
+    up = unit3(up);
+#ifdef BAKE
+    up = scale3(up, copysign((vfloat)1.0f, dot3(up, n)));
+#else
+    up = scale3(up, copysign((vfloat)1.0f, dot3(up, s.view)));
+#endif
+    const v3 lift = add3(add3(up_to(s.position, p0, n0, up, side, b0), up_to(s.position, p1, n1, up, side, b1)),
+                         up_to(s.position, p2, n2, up, side, b2));
+    const float off = greatest(greatest(size_of(p0), size_of(p1)), size_of(p2)) * 0x1p-19f;
+    s.lifted = add3(s.position, add3(lift, scale3(up, (vfloat)off)));
 #endif
 #ifdef HAS_RELIEF
     s.side = side;

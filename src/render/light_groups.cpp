@@ -199,6 +199,7 @@ void placeLights(const Scene& scene, const FlatScene& flat, const View& view, st
         sd_light moved = placed(scene.lights[flat.lights[i].index], flat.lights[i].toWorld, view);
         moved.group = lights[i].group;
         moved.scale = lights[i].scale;
+        moved.shadows = lights[i].shadows;
         lights[i] = moved;
     }
 }

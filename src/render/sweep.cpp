@@ -24,8 +24,9 @@ bool sameGeometry(const Plan& a, const Plan& b) {
     return a.view.width == b.view.width && a.view.height == b.view.height && a.samples == b.samples &&
            a.groups == b.groups && a.terms.count() == b.terms.count() && same(x.position, y.position) &&
            same(x.draws, y.draws) && same(x.index, y.index) && same(x.triangleMaterial, y.triangleMaterial) &&
-           same(x.materials, y.materials) && same(x.lobes, y.lobes) && same(x.tables, y.tables) &&
-           same(x.lights, y.lights) && same(x.textures, y.textures) && same(x.texels, y.texels);
+           same(x.casters, y.casters) && same(x.materials, y.materials) && same(x.lobes, y.lobes) &&
+           same(x.tables, y.tables) && same(x.lights, y.lights) && same(x.textures, y.textures) &&
+           same(x.texels, y.texels);
 }
 
 }  // namespace

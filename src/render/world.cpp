@@ -84,10 +84,12 @@ double stretch(const Affine& a) {
 
 /// How far a shape's mesh may lie from its true surface, in the shape's units: a tenth of a pixel where it is
 /// nearest.
-double tolerance(const Shape& shape, const Affine& toWorld, const View& view) {
+double tolerance(const Shape& shape, const Affine& toWorld, const View& view, bool drawn) {
     const double scale = stretch(toWorld), radius = boundingRadius(shape);
-    // Baked, it fills the texture.
-    if (view.baked) return 0.1 * 2 * radius / std::max(view.width, view.height);
+    // Baked, it fills the texture; its shadow on others does not.
+    constexpr double round = 5e-4;
+    if (view.baked)
+        return std::max(0.2 * radius / std::max(view.width, view.height), drawn ? 0 : round * radius);
     double pixel = 1 / view.pixelsPerSlope;  // orthographic: metres; perspective: metres at a depth of 1 m
     if (!view.orthographic) {
         const Vec3 centre = view.worldToCamera.point(toWorld.point({0, 0, 0}));
@@ -127,13 +129,15 @@ void addMesh(World& world, const Mesh& given, const Affine& toWorld, const View&
              std::optional<std::uint32_t> material) {
     if (given.index.empty()) return;
     Mesh cut;
-    if (view.before) {
+    // What lies behind a mirror is not seen in it, but hides lights.
+    const bool isCut = view.before && material;
+    if (isCut) {
         // Cut with the normals that the whole has.
         cut =
             before(given.normal.empty() ? withNormals(given, Normals::smooth) : given, toWorld, *view.before);
         if (cut.index.empty()) return;
     }
-    const Mesh& mesh = view.before ? cut : given;
+    const Mesh& mesh = isCut ? cut : given;
     if (view.baked && material) checkCoordinates(mesh, view);
     const size_t first = world.vertexDraw.size();
     if (first + mesh.position.size() > most || world.index.size() / 3 + mesh.triangles() > most)
@@ -170,21 +174,24 @@ void addMesh(World& world, const Mesh& given, const Affine& toWorld, const View&
 void addGeometry(World& world, const FlatScene& scene, const View& view,
                  const std::vector<std::uint32_t>& materialNumber) {
     const bool shadows = throwShadows(world.lights);
-    for (const FlatScene::Object& object : scene.objects) {
-        const bool casts = shadows && object.throwsShadows;
-        if (!object.drawn && !casts) continue;
+    const auto add = [&](const FlatScene::Object& object, bool drawn, bool casts) {
         const auto first = static_cast<std::uint32_t>(world.index.size() / 3);
         const auto worn = [&](Index material) {
-            return object.drawn ? std::optional(materialNumber[material]) : std::nullopt;
+            return drawn ? std::optional(materialNumber[material]) : std::nullopt;
         };
         for (const ShapeUse& use : object.node->shapes)
-            addMesh(world, tessellate(use.shape, tolerance(use.shape, object.toWorld, view)), object.toWorld,
-                    view, worn(use.material));
+            addMesh(world, tessellate(use.shape, tolerance(use.shape, object.toWorld, view, drawn)),
+                    object.toWorld, view, worn(use.material));
         for (const MeshUse& use : object.node->meshes)
             addMesh(world, *use.mesh, object.toWorld, view, worn(use.material));
         for (std::uint32_t t = first; casts && t < world.index.size() / 3; ++t)
             world.casters.push_back(t);
-    }
+    };
+    const auto casts = [&](const FlatScene::Object& object) { return shadows && object.throwsShadows; };
+    for (const FlatScene::Object& object : scene.objects)
+        if (object.drawn) add(object, true, casts(object) && !view.before);
+    for (const FlatScene::Object& object : scene.objects)
+        if (casts(object) && (!object.drawn || view.before)) add(object, false, true);
     orderCasters(world);
 }
 

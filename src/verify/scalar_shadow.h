@@ -20,7 +20,7 @@ class OccludersOf {
     };
     struct Ray {
         V from, along, inverse;
-        Real size, end;
+        Real size, end, lightSize;
     };
 
   public:
@@ -38,8 +38,8 @@ class OccludersOf {
             }
             triangle_.push_back(corners);
         }
-        const Real infinite = std::numeric_limits<Real>::infinity();
-        const Box none{{infinite, infinite, infinite}, {-infinite, -infinite, -infinite}};
+        const Real far = std::numeric_limits<Real>::max();
+        const Box none{{far, far, far}, {-far, -far, -far}};
         bounds_.assign(2 * size_t{leaves_}, none);
         for (size_t leaf = 0; leaf < leaves_; ++leaf)
             for (size_t i = firstOf(leaf); i < firstOf(leaf + 1); ++i)
@@ -96,10 +96,10 @@ class OccludersOf {
     }
 
     static Ray rayTo(const sd_light& light, V from) {
-        Ray ray{from, {light.x, light.y, light.z}, {}, 0, std::numeric_limits<Real>::infinity()};
-        ray.size = std::max({std::fabs(from.x), std::fabs(from.y), std::fabs(from.z)});
+        Ray ray{from, {light.x, light.y, light.z}, {}, largestOf(from), Real(1e30f), 0};
         if (light.type != SD_LIGHT_DIRECTIONAL) {
             ray.end = 1;
+            ray.lightSize = largestOf(ray.along);
             ray.along = {ray.along.x - from.x, ray.along.y - from.y, ray.along.z - from.z};
         }
         const auto inverse = [](Real a) {
@@ -140,11 +140,17 @@ class OccludersOf {
         const Real u = moment(p[0], p[1], ray.along), v = moment(p[1], p[2], ray.along),
                    w = moment(p[2], p[0], ray.along);
         if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0))) return false;
-        const V normal = crossed<Real>({p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z},
-                                       {p[2].x - p[0].x, p[2].y - p[0].y, p[2].z - p[0].z});
-        const Real speed = dot(normal, ray.along);
-        const Real ahead = dot(normal, p[0]) * std::copysign(Real(1.0), speed);
-        return ahead > 0 && ahead < std::fabs(speed) * ray.end;
+        const FacetOf<Real> plane = facetOf(corners);
+        const V& to = p[plane.corner];
+        const Real speed = dot(plane.normal, ray.along);
+        const Real ahead = dot(plane.normal, to) * std::copysign(Real(1.0), speed);
+        constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
+        const Real here =
+            (std::fabs(to.x) + std::fabs(to.y) + std::fabs(to.z)) * (plane.edges * (4 * epsilon));
+        const Real size =
+            std::max({largestOf(corners[0]), largestOf(corners[1]), largestOf(corners[2]), ray.lightSize});
+        const Real there = plane.steepness() * (size * (16 * epsilon));
+        return ahead > here && ahead < std::fma(std::fabs(speed), ray.end, -there);
     }
 
     std::uint32_t leaves_ = 0;

@@ -35,6 +35,11 @@ VectorOf<Real> unit(VectorOf<Real> a) {
 }
 
 template <typename Real>
+Real largestOf(VectorOf<Real> a) {
+    return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
+}
+
+template <typename Real>
 struct SurfaceOf {
     VectorOf<Real> position, normal, view;
     Real cosView;
@@ -65,25 +70,58 @@ VectorOf<Real> sumOf(VectorOf<Real> a, VectorOf<Real> b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
-/// Off the triangle (`face`: its unit normal), and onto what its corners' normals make of it where that is
-/// above; `share`: barycentrics.
+/// The plane of a triangle from its two shorter edges and the corner between them.
 template <typename Real>
-VectorOf<Real> liftedFrom(const SurfaceOf<Real>& s, VectorOf<Real> face, Real outward,
+struct FacetOf {
+    VectorOf<Real> normal;
+    Real edges;  ///< product of both edges' largest coordinates
+    size_t corner;
+
+    /// The largest coordinate of the normal; 1 for none.
+    [[nodiscard]] Real steepness() const {
+        const Real largest = largestOf(normal);
+        return largest > 0 ? largest : Real(1.0);
+    }
+};
+template <typename Real>
+FacetOf<Real> facetOf(const std::array<VectorOf<Real>, 3>& p) {
+    std::array<VectorOf<Real>, 3> edge{};
+    std::array<Real, 3> square{};
+    for (size_t k = 0; k < 3; ++k) {
+        const auto &from = p[k], &to = p[(k + 1) % 3];
+        edge[k] = {to.x - from.x, to.y - from.y, to.z - from.z};
+        square[k] = dot(edge[k], edge[k]);
+    }
+    const size_t first = square[0] > square[2] && square[0] > square[1] ? 1 : square[1] > square[2] ? 2 : 0;
+    const auto &a = edge[first], &b = edge[(first + 1) % 3];
+    return {crossed(a, b), largestOf(a) * largestOf(b), (first + 1) % 3};
+}
+
+/// Off the triangle, and onto what its corners' normals make of it where that is above; `share`:
+/// barycentrics.
+template <typename Real>
+VectorOf<Real> liftedFrom(const SurfaceOf<Real>& s, bool baked, VectorOf<Real> interpolated,
                           const std::array<std::array<Real, 3>, 3>& corner,
                           const std::array<std::array<Real, 3>, 3>& normal,
                           const std::array<Real, 3>& share) {
-    std::array<VectorOf<Real>, 3> up{};
+    std::array<VectorOf<Real>, 3> p{}, lift{};
     Real size = 0;
     for (size_t k = 0; k < 3; ++k) {
-        const auto& p = corner[k];
-        const VectorOf<Real> n = scaled(unit<Real>({normal[k][0], normal[k][1], normal[k][2]}), s.side);
-        const VectorOf<Real> off{s.position.x - p[0], s.position.y - p[1], s.position.z - p[2]};
-        up[k] = scaled(n, share[k] * std::max(-dot(off, n), Real(0.0)));
-        for (const Real coordinate : p)
-            size = std::max(size, std::fabs(coordinate));
+        p[k] = {corner[k][0], corner[k][1], corner[k][2]};
+        size = std::max(size, largestOf(p[k]));
     }
-    const Real rounding = s.side * outward * (size * (std::numeric_limits<Real>::epsilon() * Real(16.0)));
-    return sumOf(s.position, sumOf(sumOf(sumOf(up[0], up[1]), up[2]), scaled(face, rounding)));
+    const FacetOf<Real> own = facetOf(p);
+    const Real largest = own.steepness();
+    VectorOf<Real> up = unit<Real>({own.normal.x / largest, own.normal.y / largest, own.normal.z / largest});
+    up = scaled(up, std::copysign(Real(1.0), dot(up, baked ? interpolated : s.view)));
+    for (size_t k = 0; k < 3; ++k) {
+        const VectorOf<Real> n = scaled(unit<Real>({normal[k][0], normal[k][1], normal[k][2]}), s.side);
+        const VectorOf<Real> off{s.position.x - p[k].x, s.position.y - p[k].y, s.position.z - p[k].z};
+        const Real round = std::clamp(std::fma(dot(n, up), Real(4.0), -Real(2.4f)), Real(0.0), Real(1.0));
+        lift[k] = scaled(n, share[k] * round * std::max(-dot(off, n), Real(0.0)));
+    }
+    const Real rounding = size * (std::numeric_limits<Real>::epsilon() * Real(16.0));
+    return sumOf(s.position, sumOf(sumOf(sumOf(lift[0], lift[1]), lift[2]), scaled(up, rounding)));
 }
 
 /// Stored: what the vertices are kept in.
@@ -127,17 +165,17 @@ SurfaceOf<Real> surfaceAt(const World& world, const VerticesOf<Stored>& vertices
     const auto fromFirst = [&](size_t i) {
         return std::fma(b2, n[2][i] - n[0][i], std::fma(b1, n[1][i] - n[0][i], n[0][i]));
     };
-    VectorOf<Real> normal{fromFirst(0), fromFirst(1), fromFirst(2)};
+    const VectorOf<Real> normal{fromFirst(0), fromFirst(1), fromFirst(2)};
     s.view = frame.orthographic ? VectorOf<Real>{0, 0, 1}
                                 : unit<Real>({-s.position.x, -s.position.y, -s.position.z});
     const VectorOf<Real> e1{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]},
         e2{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
     const VectorOf<Real> face = crossed(e1, e2);
-    const Real outward = std::copysign(Real(1.0), dot(face, normal));
-    normal = unit(normal);
-    s.side = frame.baked ? Real(1.0) : std::copysign(Real(1.0), dot(face, s.view)) * outward;
-    s.normal = scaled(normal, s.side);
-    s.lifted = liftedFrom<Real>(s, unit(crossed(unit(e1), unit(e2))), outward, p, n, {b0, b1, b2});
+    const Real seen = dot(face, s.view), outward = dot(face, normal);
+    const VectorOf<Real> interpolated = unit(normal);
+    s.side = frame.baked ? Real(1.0) : std::copysign(Real(1.0), seen) * std::copysign(Real(1.0), outward);
+    s.normal = scaled(interpolated, s.side);
+    s.lifted = liftedFrom<Real>(s, frame.baked != 0, interpolated, p, n, {b0, b1, b2});
     s.horizon = s.normal;
     s.cosView = std::fmax(dot(s.normal, s.view), Real(1e-6f));
     if (!world.uv.empty()) {

@@ -214,6 +214,21 @@ TEST_CASE("What is wrong with a scene's sweep is said with its place") {
     CHECK_FALSE(std::filesystem::exists(folder / "out/sweep.csv"));
 }
 
+TEST_CASE("A sweep refuses variants whose shadows differ") {
+    if (!cli::haveDevice()) return;
+    const Folder folder;
+    folder.write("s.xml", R"(<scene version="1" shadows="true"><wavelengths>500 600</wavelengths>
+<node rotate="1 0 0 -90"><plane size="8"/></node><node name="ball" translate="0 1 0"><sphere radius="0.5"/></node>
+<light name="key" type="point" position="1 4 2" spectrum="constant:1" scale="9"/>
+<camera fov="60" look-from="0 1.5 3" look-at="0 0.5 0" size="16x12"/></scene>)");
+    for (const char* what : {"ball.shadows=true|false", "key.shadows=true|false"}) {
+        const Outcome outcome =
+            run(folder, {"sweep", "s.xml", "-o", "out", "-q", "--vary", what, "--region", "all=0,0,16,12"});
+        CHECK(outcome.code != 0);
+        CHECK_THAT(outcome.err, Catch::Matchers::Contains("changes more than spectra"));
+    }
+}
+
 TEST_CASE(
     "A sweep shows passes as a render does: a print under every lamp; a picture that changes is refused") {
     if (!cli::haveDevice()) return;

@@ -101,13 +101,19 @@ TEST_CASE("a ball's shadow on a plane ends where lines to the light touch the ba
         }
 }
 
-TEST_CASE("planes, balls and boxes hide nothing of themselves: the same bytes as without shadows") {
+TEST_CASE("planes, balls, boxes and rods hide nothing of themselves: the same bytes as without shadows") {
     if (!haveDevice()) return;
-    for (const char* body :
-         {R"(<node rotate="1 0 0 -90"><plane size="20" material="m"/></node>)",
-          R"(<node rotate="1 0 0 -90"><plane size="2000" material="m"/></node>)",
-          R"(<node translate="0 1 0"><sphere radius="1" material="m"/></node>)",
-          R"(<node translate="0 1 0" rotate="0 1 0 30"><box size="1" material="m"/></node>)"})
+    for (
+        const char* body :
+        {R"(<node rotate="1 0 0 -90"><plane size="20" material="m"/></node>)",
+         R"(<node rotate="1 0 0 -90"><plane size="2000" material="m"/></node>)",
+         R"(<node translate="0 1 0"><sphere radius="1" material="m"/></node>)",
+         R"(<node translate="0 1 0" rotate="0 1 0 30"><box size="1" material="m"/></node>)",
+         R"(<node translate="0 1 0" rotate="3 1 2 50"><box size="30 0.05 0.05" material="m"/></node>)",
+         R"(<node translate="0 1 0" rotate="2 -1 2 70"><box size="30 0.01 0.01" material="m"/></node>)",
+         R"(<node translate="0 1 0" rotate="1 3 1 40"><box size="100 0.05 0.05" material="m"/></node>)",
+         R"(<node translate="0 1 0" rotate="1 1 3 50"><plane size="20 0.05" material="m"/></node>)",
+         R"(<node translate="0 1 0" rotate="1 0.2 0.3 40"><cylinder radius="0.01" height="10" material="m"/></node>)"})
         for (const int count : {1, 16}) {
             const std::string scene =
                 bodies(body + std::string(lamps),
@@ -267,4 +273,88 @@ TEST_CASE("reflectances have no shadows") {
     RenderSettings settings = samples(1);
     settings.substitute = Substitute::equalEnergy;
     CHECK(imageOf(scene, settings).at(27, 20) > 0);
+}
+
+TEST_CASE("a lamp that lies in a surface is not hidden by it") {
+    if (!haveDevice()) return;
+    const std::string scene =
+        R"(<scene version="1"><wavelengths>550</wavelengths><material name="m"><diffuse reflectance="constant:0.5"/></material>
+<node rotate="1 0 0 -90"><plane size="6" material="m"/></node>
+<node translate="0 2.7 0" rotate="1 0 0 90"><plane size="6" material="m"/></node>
+<light type="point" position="0.3 HEIGHT 0.2" spectrum="constant:1" scale="9" SHADOWS/>
+<camera fov="70" look-from="1.1 1.6 2.8" look-at="0 0.8 0" size="96x64"/></scene>)";
+    const auto at = [&](const std::string& height, bool shadows) {
+        std::string text = scene;
+        text.replace(text.find("HEIGHT"), 6, height);
+        return imageOf(withShadows(text, shadows), samples(16));
+    };
+    for (const char* height : {"2.7", "2.7000001", "2.6999999"}) {
+        INFO(height);
+        CHECK((at(height, true).values == at(height, false).values));
+    }
+    CHECK(at("2.701", true).at(48, 60) == 0);
+}
+
+TEST_CASE("a ball on a box whose normals were averaged over its edges throws its shadow there") {
+    if (!haveDevice()) return;
+    Mesh box;
+    for (int i = 0; i < 8; ++i) {
+        const std::array<float, 3> p{i & 1 ? 0.5f : -0.5f, i & 2 ? 0.5f : -0.5f, i & 4 ? 0.5f : -0.5f};
+        box.position.push_back(p);
+        box.normal.push_back(p);
+    }
+    box.index = {2, 6, 3, 3, 6, 7, 0, 1, 4, 1, 5, 4, 4, 5, 6, 5, 7, 6,
+                 0, 2, 1, 1, 2, 3, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+    Scene scene = sceneFrom(
+        R"(<scene version="1"><wavelengths>550</wavelengths><material name="m"><diffuse reflectance="constant:0.5"/></material>
+<node translate="0 0.58 0"><sphere radius="0.08" material="m"/></node>
+<light type="directional" direction="1 -1 0" spectrum="constant:1" scale="1" shadows="true"/>
+<camera type="orthographic" height="1" look-from="0 5 0" look-at="0 0 0" up="0 0 -1" size="100x100"/></scene>)");
+    scene.nodes.front().meshes.push_back({std::make_shared<const Mesh>(box), 0});
+    const Image image = imageOf(scene, samples(1));
+    CHECK(image.at(62, 50) == 0);
+    CHECK(image.at(40, 50) > 0);
+}
+
+TEST_CASE("what lies behind a mirror hides lamps in it as it does outside") {
+    if (!haveDevice()) return;
+    // The mirror itself stands between the lamp and all that it shows.
+    const std::string scene =
+        R"(<scene version="1"><wavelengths>550</wavelengths><material name="m"><diffuse reflectance="constant:0.5"/></material>
+<node rotate="1 0 0 -90"><plane size="8" material="m"/></node>
+<node name="glass"><plane size="40" material="m"/></node>
+<light type="point" position="0 1 -2" spectrum="constant:1" scale="9" SHADOWS/>
+<camera name="eye" fov="60" look-from="0 1.5 3" look-at="0 0.5 0" size="64x48"/>
+<pass name="mirrored" mirror="glass" camera="eye"/></scene>)";
+    RenderSettings settings = samples(4);
+    settings.pass = "mirrored";
+    CHECK(largest(imageOf(sceneFrom(withShadows(scene, true)), settings)) == 0);
+    CHECK(largest(imageOf(sceneFrom(withShadows(scene, false)), settings)) > 0);
+}
+
+TEST_CASE("a node that throws no shadow throws none in a pass of what stands in it, nor when it is baked") {
+    if (!haveDevice()) return;
+    const std::string scene =
+        R"(<scene version="1"><wavelengths>550</wavelengths><material name="m"><diffuse reflectance="constant:0.5"/></material>
+<node WORD rotate="1 2 0 20"><node rotate="0 1 3 30"><node rotate="2 1 0 -40"><node name="group">
+<node rotate="1 0 0 -90"><plane size="4" material="m"/></node>
+<node translate="0 0.5 0"><box size="0.5" material="m"/></node></node></node></node></node>
+<light name="lamp" type="point" position="3 9 2" spectrum="constant:1" scale="100" shadows="true"/>
+<camera name="eye" fov="40" look-from="2 9 3" look-at="0 0 0" size="64x64"/>
+<pass name="all" camera="eye"/><pass name="part" of="group" lights="lamp" camera="eye"/></scene>)";
+    for (const bool casts : {false, true}) {
+        std::string text = scene;
+        text.replace(text.find("WORD"), 4, casts ? "" : "shadows=\"false\"");
+        const Scene read = sceneFrom(text);
+        RenderSettings settings = samples(1);
+        settings.pass = "all";
+        const Image all = imageOf(read, settings);
+        settings.pass = "part";
+        CHECK((imageOf(read, settings).values == all.values));
+        RenderSettings bake = samples(1);
+        bake.bake = Bake{"group", PassKind::radiance};
+        bake.size = {32, 32};
+        const Plan plan = planOf(read, bake);
+        CHECK(plan.world.casters.size() == (casts ? plan.triangles() : 0));
+    }
 }
