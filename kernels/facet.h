@@ -13,26 +13,21 @@ typedef struct facet {
     int corner;    /* 0, 1 or 2: between them */
 } facet;
 
-static inline float square_of(const float* e) { return fma(e[2], e[2], fma(e[1], e[1], e[0] * e[0])); }
-static inline float reach_of(const float* e) { return greatest(greatest(fabs(e[0]), fabs(e[1])), fabs(e[2])); }
-
 static inline facet facet_of(const global float* p0, const global float* p1, const global float* p2) {
-    const float e0[3] = {p1[0] - p0[0], p1[1] - p0[1], p1[2] - p0[2]};
-    const float e1[3] = {p2[0] - p1[0], p2[1] - p1[1], p2[2] - p1[2]};
-    const float e2[3] = {p0[0] - p2[0], p0[1] - p2[1], p0[2] - p2[2]};
-    const float s0 = square_of(e0), s1 = square_of(e1), s2 = square_of(e2);
-    const float* a = e0;
-    const float* b = e1;
+    const float x0 = p1[0] - p0[0], y0 = p1[1] - p0[1], z0 = p1[2] - p0[2];
+    const float x1 = p2[0] - p1[0], y1 = p2[1] - p1[1], z1 = p2[2] - p1[2];
+    const float x2 = p0[0] - p2[0], y2 = p0[1] - p2[1], z2 = p0[2] - p2[2];
+    const float s0 = fma(z0, z0, fma(y0, y0, x0 * x0)), s1 = fma(z1, z1, fma(y1, y1, x1 * x1)), s2 = fma(z2, z2, fma(y2, y2, x2 * x2));
+    /* The longest is left out; choices of values, not of places, which every compiler gets right. */
+    const int not0 = s0 > s2 && s0 > s1, not1 = !not0 && s1 > s2;
+    const float ax = not0 ? x1 : not1 ? x2 : x0, ay = not0 ? y1 : not1 ? y2 : y0, az = not0 ? z1 : not1 ? z2 : z0;
+    const float bx = not0 ? x2 : not1 ? x0 : x1, by = not0 ? y2 : not1 ? y0 : y1, bz = not0 ? z2 : not1 ? z0 : z1;
     facet f;
-    f.corner = 1;
-    if (s0 > s2 && s0 > s1)
-        a = e1, b = e2, f.corner = 2;
-    else if (s1 > s2)
-        a = e2, b = e0, f.corner = 0;
-    f.x = fma(a[1], b[2], -(a[2] * b[1]));
-    f.y = fma(a[2], b[0], -(a[0] * b[2]));
-    f.z = fma(a[0], b[1], -(a[1] * b[0]));
-    f.edges = reach_of(a) * reach_of(b);
+    f.corner = not0 ? 2 : not1 ? 0 : 1;
+    f.x = fma(ay, bz, -(az * by));
+    f.y = fma(az, bx, -(ax * bz));
+    f.z = fma(ax, by, -(ay * bx));
+    f.edges = greatest(greatest(fabs(ax), fabs(ay)), fabs(az)) * greatest(greatest(fabs(bx), fabs(by)), fabs(bz));
     return f;
 }
 
